@@ -35,14 +35,14 @@ test('each dependency rule fails when broken', () => {
   const breaches = {
     'core depends on signal': { core: [['boresight-signal']] },
     'formats depends on signal': { formats: [['boresight-signal']] },
-    'calibrate depends on aoa': { calibrate: [['boresight-aoa']] },
+    'mounting depends on aoa': { mounting: [['boresight-aoa']] },
     'core names wasm-bindgen': { core: [['wasm-bindgen']] },
     'signal names js-sys': { signal: [['js-sys', 'dev']] },
     'aoa names tract-onnx': { aoa: [['tract-onnx']] },
     'cli depends on the binding crate wasm': { cli: [['boresight-wasm']] },
     'wasm depends on the binding crate wasm-neural': { wasm: [['boresight-wasm-neural']] },
     'cli depends on experiments': { cli: [['boresight-experiments']] },
-    'extra: no rule': { extra: [] },
+    'extra: no layer': { extra: [] },
   };
   for (const [expected, crates] of Object.entries(breaches)) {
     const found = problems(graph(crates));

@@ -2,7 +2,7 @@
 import { drives } from '../lib/drive/drive.js';
 import { module } from './modules.js';
 
-export { Calibration } from '../lib/calibrate/calibrate.js';
+export { Calibration } from '../lib/mounting/calibrate.js';
 export { scanMotion } from '../lib/drive/frame.js';
 export { BoresightError } from '../lib/runtime/errors.js';
 

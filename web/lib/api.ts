@@ -7,7 +7,7 @@ export {
   configuredCalibration,
   tiCompensation,
 } from './array-calibration/array-calibration.js';
-export { Calibration, calibrationMethods, mergeCalibrations } from './calibrate/calibrate.js';
+export { Calibration, calibrationMethods, mergeCalibrations } from './mounting/calibrate.js';
 export { Capture, frameCells, joinCascade, processCube } from './capture/capture.js';
 export { strongestRegion } from './capture/region.js';
 export { calibrateDrive, calibrationReport, frameVerdicts, jointCalibration } from './drive/calibration.js';

@@ -5,7 +5,7 @@
  */
 
 export type * from './array-calibration/types.js';
-export type * from './calibrate/types.js';
+export type * from './mounting/types.js';
 export type * from './capture/types.js';
 export type * from './drive/types.js';
 export type * from './estimate/types.js';

@@ -1,6 +1,6 @@
 // The functions of the package as promises.
 import type * as arrayCalibration from '../lib/array-calibration/array-calibration.js';
-import type * as calibrate from '../lib/calibrate/calibrate.js';
+import type * as calibrate from '../lib/mounting/calibrate.js';
 import type * as capture from '../lib/capture/capture.js';
 import type * as region from '../lib/capture/region.js';
 import type * as drive from '../lib/drive/drive.js';

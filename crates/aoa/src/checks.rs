@@ -6,8 +6,8 @@ use crate::method::Method;
 use crate::options::{EstimatorOptions, SourceCount};
 use crate::suits::unsuited_array;
 use boresight_core::limits::check_bytes;
-use boresight_core::order::sort_in_place;
 use boresight_core::{Array, Complex64, Direction, Extent, Lattice};
+use boresight_math::order::sort_in_place;
 
 /// Memory of a grid point: its direction, its value, and what transforms make on the way.
 const POINT_BYTES: usize = 128;

@@ -1,8 +1,8 @@
 //! What an estimator works on.
 
 use crate::error::AoaError;
-use boresight_core::error::check_finite;
-use boresight_core::{Complex64, CoreError};
+use boresight_core::{Complex64, InputError};
+use boresight_math::error::check_finite;
 use ndarray::{ArrayView, ArrayView2, Dimension};
 
 /// Measurements of one cell.
@@ -32,8 +32,8 @@ impl Data<'_> {
     /// Hermitian to 1e-6 of its largest entry with a real, non-negative diagonal.
     ///
     /// # Errors
-    /// [`CoreError::Shape`], [`CoreError::Empty`], [`CoreError::NotFinite`],
-    /// [`CoreError::OutOfRange`].
+    /// [`InputError::Shape`], [`InputError::Empty`], [`InputError::NotFinite`],
+    /// [`InputError::OutOfRange`].
     pub fn check(&self, elements: usize) -> Result<(), AoaError> {
         match self {
             Self::Snapshots(y) => {
@@ -62,7 +62,7 @@ impl Data<'_> {
                 let lowest = matrix.diag().iter().map(|z| z.re).fold(0.0, f64::min);
                 let refused = |what: &str, expected: &str, given: f64| {
                     let (what, expected) = (what.into(), expected.into());
-                    Err(AoaError::Argument(CoreError::OutOfRange { what, expected, given }))
+                    Err(AoaError::Argument(InputError::OutOfRange { what, expected, given }))
                 };
                 if skew > 1e-6 * scale {
                     let expected = "at most 1e-6 of its largest entry, as of a Hermitian matrix";
@@ -84,7 +84,7 @@ impl Data<'_> {
     /// Refuses data that is not zero and whose powers vanish in double precision.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`].
+    /// [`InputError::OutOfRange`].
     pub(crate) fn check_not_vanishing(&self) -> Result<(), AoaError> {
         let (what, largest, least) = match self {
             Self::Snapshots(y) => {
@@ -97,7 +97,7 @@ impl Data<'_> {
             }
         };
         if largest > 0.0 && largest <= least {
-            return Err(AoaError::Argument(CoreError::OutOfRange {
+            return Err(AoaError::Argument(InputError::OutOfRange {
                 what: what.into(),
                 expected: format!(
                     "0 or more than {least:e}, below which powers cannot be computed"
@@ -113,7 +113,7 @@ impl Data<'_> {
 pub(crate) fn check_all_finite<D: Dimension>(
     what: &str,
     data: ArrayView<Complex64, D>,
-) -> Result<(), CoreError> {
+) -> Result<(), InputError> {
     let sound = |z: &Complex64| z.re.is_finite() & z.im.is_finite();
     if let Some(numbers) = data.as_slice()
         && numbers.iter().fold(true, |all, z| all & sound(z))
@@ -124,9 +124,9 @@ pub(crate) fn check_all_finite<D: Dimension>(
 }
 
 fn empty(what: &str) -> AoaError {
-    CoreError::Empty { what: what.into(), expected: "at least one".into() }.into()
+    InputError::Empty { what: what.into(), expected: "at least one".into() }.into()
 }
 
 fn shape(what: &str, expected: String, given: ArrayView2<Complex64>) -> AoaError {
-    CoreError::Shape { what: what.into(), expected, given: given.shape().to_vec() }.into()
+    InputError::Shape { what: what.into(), expected, given: given.shape().to_vec() }.into()
 }

@@ -1,6 +1,6 @@
 //! Errors of angle estimation.
 
-use boresight_core::{CoreError, Details, Diagnose};
+use boresight_core::{Details, Diagnose, InputError};
 use thiserror::Error;
 
 /// Why an estimator cannot be built or cannot take the data.
@@ -9,7 +9,7 @@ use thiserror::Error;
 pub enum AoaError {
     /// An argument is wrong in itself.
     #[error(transparent)]
-    Argument(#[from] CoreError),
+    Argument(#[from] InputError),
     /// The array does not suit the method.
     #[error("{method} needs {expected}; the array {given}")]
     Array {

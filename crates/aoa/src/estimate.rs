@@ -1,9 +1,9 @@
 //! What an estimator returns.
 
 use crate::method::Method;
-use boresight_core::describe::remark::Coded;
-use boresight_core::describe::{Described, columns, decibels, remark};
 use boresight_core::{Complex64, Direction, Remark};
+use boresight_options::remark::Coded;
+use boresight_options::{Described, columns, decibels, remark};
 use serde::{Deserialize, Serialize};
 
 /// One source found.

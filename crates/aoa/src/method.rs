@@ -1,7 +1,7 @@
 //! The estimators by name, and what each asks for.
 
-use boresight_core::CoreError;
-use boresight_core::describe::{Described, Named};
+use boresight_core::InputError;
+use boresight_options::{Described, Named};
 use serde::{Deserialize, Serialize};
 
 /// An angle-of-arrival estimator.
@@ -117,8 +117,8 @@ impl Method {
     /// Finds a method by its [`Method::name`].
     ///
     /// # Errors
-    /// [`CoreError::Unknown`], listing the known names.
-    pub fn from_name(name: &str) -> Result<Self, CoreError> {
+    /// [`InputError::Unknown`], listing the known names.
+    pub fn from_name(name: &str) -> Result<Self, InputError> {
         Named::from_name("method", name)
     }
 

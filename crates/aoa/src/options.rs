@@ -1,8 +1,8 @@
 //! Options of the estimators, in SI units and radians.
 
-use boresight_core::CoreError;
-use boresight_core::describe::{self, At, Described, Kind, Naming, Range, Special};
-use boresight_core::error::check_range;
+use boresight_core::InputError;
+use boresight_math::error::check_range;
+use boresight_options::{At, Described, Kind, Naming, Range, Special, check};
 use serde::de::{Error, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::f64::consts::FRAC_PI_2;
@@ -191,9 +191,9 @@ impl EstimatorOptions {
     /// Checks every option's range.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] naming the option.
-    pub fn check(&self) -> Result<(), CoreError> {
-        describe::check(self, Naming::Rust)?;
+    /// [`InputError::OutOfRange`] naming the option.
+    pub fn check(&self) -> Result<(), InputError> {
+        check(self, Naming::Rust)?;
         // Three points inside the field of view at least, so that there can be a peak.
         let fewest = (4.0 / self.field_of_view_rad.sin()).ceil().max(16.0);
         check_range("grid_points", self.grid_points as f64, fewest, 65_536.0)
@@ -244,7 +244,7 @@ impl Described for SourceCount {
         flag: "N|auto|aic|mdl|network",
     });
 
-    fn check(&self, range: Option<Range>, at: &At<'_>) -> Result<(), CoreError> {
+    fn check(&self, range: Option<Range>, at: &At<'_>) -> Result<(), InputError> {
         match self {
             Self::Known(count) => count.check(range, at),
             Self::Auto | Self::Aic | Self::Mdl | Self::Network => Ok(()),

@@ -3,9 +3,9 @@
 use crate::method::Method;
 use crate::options::EstimatorOptions;
 use boresight_core::array::MAX_ELEMENTS;
-use boresight_core::describe::Described;
 use boresight_core::lattice::Lattice;
 use boresight_core::{Array, Extent};
+use boresight_options::Described;
 use serde::Serialize;
 
 /// Why a method cannot work on an array, or on so many snapshots of it.
@@ -60,7 +60,7 @@ impl Unsuited {
 /// let array = Array::new(&[[0.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 5.0, 0.0]])?;
 /// assert_eq!(unsuited(Method::Esprit, &array, &EstimatorOptions::default(), 10), Some(Unsuited::UniformArray));
 /// assert_eq!(unsuited(Method::Capon, &array, &EstimatorOptions::default(), 10), None);
-/// # Ok::<(), boresight_core::CoreError>(())
+/// # Ok::<(), boresight_core::InputError>(())
 /// ```
 pub fn unsuited(
     method: Method,

@@ -7,8 +7,9 @@ use boresight_aoa::bounds::{
 };
 use boresight_aoa::{Data, Estimator, EstimatorOptions, Method};
 use boresight_core::presets::preset;
-use boresight_core::steering::{cis, steering_vector};
+use boresight_core::steering::steering_vector;
 use boresight_core::{Array, Direction, Random};
+use boresight_math::phasor::cis;
 use ndarray::Axis;
 use support::{azimuths, found, known, scene};
 

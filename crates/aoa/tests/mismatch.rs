@@ -6,8 +6,9 @@
 use boresight_aoa::order::counting::{CountOptions, Criterion, count_sources_in};
 use boresight_aoa::{Data, Estimator, EstimatorOptions, Method, SourceCount};
 use boresight_core::presets::preset;
-use boresight_core::steering::{cis, steering_vector};
+use boresight_core::steering::steering_vector;
 use boresight_core::{Array, Complex64, Direction, Random};
+use boresight_math::phasor::cis;
 use ndarray::Array2;
 use std::f64::consts::FRAC_PI_4;
 

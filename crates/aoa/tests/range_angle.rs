@@ -4,8 +4,9 @@
 #![allow(clippy::unwrap_used)]
 
 use boresight_aoa::{EstimatorOptions, RangeAngle, RangeAngleEstimate, SourceCount};
-use boresight_core::steering::{cis, steering_vector};
+use boresight_core::steering::steering_vector;
 use boresight_core::{Array, Complex32, Complex64, Diagnose, Direction, Random};
+use boresight_math::phasor::cis;
 use ndarray::{Array3, s};
 use std::f64::consts::{PI, TAU};
 

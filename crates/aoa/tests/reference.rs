@@ -6,8 +6,8 @@ mod support;
 
 use boresight_aoa::options::EspritForm;
 use boresight_aoa::{EstimatorOptions, Method};
-use boresight_core::linalg::hermitian_eigen;
 use boresight_core::{Array, Complex64};
+use boresight_math::linalg::hermitian_eigen;
 use boresight_signal::sample_covariance;
 use ndarray::Array2;
 use serde_json::Value;

@@ -4,10 +4,11 @@
 use boresight_aoa::bounds::{Signals, deterministic_bound, single_snapshot};
 use boresight_aoa::refinement::Refinement;
 use boresight_aoa::{AoaError, Data, Estimator, EstimatorOptions, Method, Warning};
-use boresight_core::linalg::adjoint;
 use boresight_core::presets::preset;
-use boresight_core::steering::{cis, steering_matrix};
+use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Complex64, Diagnose, Direction, Random};
+use boresight_math::linalg::adjoint;
+use boresight_math::phasor::cis;
 use ndarray::Array2;
 
 /// Directions at least two beamwidths apart within 60 deg, and one snapshot of them.

@@ -9,7 +9,7 @@ use boresight_aoa::options::{EspritForm, IaaForm, Thresholding};
 use boresight_aoa::order::counting::{CountOptions, count_sources_in};
 use boresight_aoa::{AoaError, Data, Estimator, EstimatorOptions, Method, SourceCount, Warning};
 use boresight_core::presets::preset;
-use boresight_core::{Array, Complex64, CoreError, Diagnose, Limits, Random};
+use boresight_core::{Array, Complex64, Diagnose, InputError, Limits, Random};
 use ndarray::{Array1, Array2};
 use proptest::prelude::*;
 use support::{azimuths, known, scene};
@@ -27,7 +27,7 @@ fn a_count_of_sources_knows_what_it_takes_before_it_starts() {
     // Tests of this file have threads of their own.
     Limits { operations: 1e4, ..Limits::default() }.set().unwrap();
     assert!(count(12).is_ok());
-    assert!(matches!(count(40), Err(AoaError::Argument(CoreError::TooLarge { .. }))));
+    assert!(matches!(count(40), Err(AoaError::Argument(InputError::TooLarge { .. }))));
 }
 
 #[test]
@@ -87,7 +87,7 @@ fn averaging_and_smoothing_need_a_uniform_array() {
     }
     let long = EstimatorOptions { smoothing: Some(9), ..EstimatorOptions::default() };
     let error = error(Method::Capon, &Array::ula(8).unwrap(), &long);
-    assert!(matches!(error, AoaError::Argument(CoreError::OutOfRange { .. })), "{error}");
+    assert!(matches!(error, AoaError::Argument(InputError::OutOfRange { .. })), "{error}");
 }
 
 #[test]
@@ -100,7 +100,7 @@ fn a_field_of_view_between_grid_points_is_refused() {
     for method in [Method::Bartlett, Method::Iaa] {
         let error = error(method, &Array::ula(8).unwrap(), &narrow);
         assert!(
-            matches!(&error, AoaError::Argument(CoreError::OutOfRange { what, .. })
+            matches!(&error, AoaError::Argument(InputError::OutOfRange { what, .. })
                 if what == "grid_points"),
             "{error}"
         );

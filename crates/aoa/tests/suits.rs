@@ -2,9 +2,9 @@
 
 use boresight_aoa::suits::{Unsuited, unsuited};
 use boresight_aoa::{Data, Estimator, EstimatorOptions, Method, SourceCount};
-use boresight_core::describe::Named;
 use boresight_core::presets::preset;
 use boresight_core::{Array, Complex64};
+use boresight_options::Named;
 use ndarray::Array2;
 
 #[test]

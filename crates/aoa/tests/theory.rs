@@ -11,10 +11,10 @@ use boresight_aoa::bounds::{
 use boresight_aoa::options::EspritForm;
 use boresight_aoa::order::counting::{CountSizes, Criterion, count_sources};
 use boresight_aoa::{AoaError, Data, Estimator, EstimatorOptions, Method};
-use boresight_core::linalg::hermitian_eigen;
 use boresight_core::presets::preset;
 use boresight_core::steering::{steering_matrix, steering_vector};
-use boresight_core::{Array, Complex64, CoreError, Direction, Random};
+use boresight_core::{Array, Complex64, Direction, InputError, Random};
+use boresight_math::linalg::hermitian_eigen;
 use boresight_signal::{forward_backward, sample_covariance};
 use ndarray::{Array1, Array2};
 use std::f64::consts::PI;
@@ -143,7 +143,7 @@ fn the_deterministic_bound_is_the_inverse_of_the_fisher_matrix() {
             columns[i].iter().zip(&columns[k]).map(|(x, y)| x.conj() * y).sum();
         Complex64::new(2.0 / noise * product.re, 0.0)
     });
-    let inverse = boresight_core::linalg::Cholesky::new(fisher.view()).unwrap().inverse();
+    let inverse = boresight_math::linalg::Cholesky::new(fisher.view()).unwrap().inverse();
     let directions = [
         Direction::new(parameters[0], parameters[2]),
         Direction::new(parameters[1], parameters[3]),
@@ -179,11 +179,11 @@ fn the_stochastic_bound_is_the_inverse_of_the_fisher_matrix() {
             [Complex64::new(p[2], 0.0), cross],
             [cross.conj(), Complex64::new(p[3], 0.0)]
         ];
-        a.dot(&powers).dot(&boresight_core::linalg::adjoint(a.view()))
+        a.dot(&powers).dot(&boresight_math::linalg::adjoint(a.view()))
             + Array2::<Complex64>::eye(5).mapv(|z| z * p[6])
     };
     let inverse =
-        boresight_core::linalg::Cholesky::new(model(&parameters).view()).unwrap().inverse();
+        boresight_math::linalg::Cholesky::new(model(&parameters).view()).unwrap().inverse();
     let slopes: Vec<Array2<Complex64>> = (0..parameters.len())
         .map(|i| {
             let moved = |step: f64| {
@@ -198,7 +198,7 @@ fn the_stochastic_bound_is_the_inverse_of_the_fisher_matrix() {
         let trace = slopes[i].dot(&slopes[k]).diag().sum();
         Complex64::new(snapshots as f64 * trace.re, 0.0)
     });
-    let wanted = boresight_core::linalg::Cholesky::new(fisher.view()).unwrap().inverse();
+    let wanted = boresight_math::linalg::Cholesky::new(fisher.view()).unwrap().inverse();
     let covariance = ndarray::array![
         [Complex64::new(1.0, 0.0), Complex64::new(0.2, -0.3)],
         [Complex64::new(0.2, 0.3), Complex64::new(0.6, 0.0)]
@@ -252,7 +252,7 @@ fn bounds_of_what_cannot_be_told_apart_are_infinite_and_bad_arguments_are_named(
     let nan = Array2::from_elem((2, 2), Complex64::new(f64::NAN, 0.0));
     let signals = Signals { covariance: nan.view(), ..signals };
     let error = stochastic_bound(&array, &two, &signals).unwrap_err();
-    assert!(matches!(error, AoaError::Argument(CoreError::NotFinite { .. })));
+    assert!(matches!(error, AoaError::Argument(InputError::NotFinite { .. })));
 }
 
 /// MDL misses and false alarms are both far rarer than 1 % here; the largest-root test has its false alarms; AIC overestimates in

@@ -1,9 +1,9 @@
 //! Cells as calibration takes them: one vector over the channels each.
 
 use crate::error::ArrayCalibrationError;
-use boresight_core::error::{check_finite, check_positive};
-use boresight_core::linalg::hermitian_eigen;
-use boresight_core::{Complex64, CoreError, Direction};
+use boresight_core::{Complex64, Direction, InputError};
+use boresight_math::error::{check_finite, check_positive};
+use boresight_math::linalg::hermitian_eigen;
 use boresight_signal::sample_covariance;
 use ndarray::ArrayView2;
 
@@ -40,7 +40,7 @@ impl Cell {
     /// A cell from its snapshots (channels x snapshots) and the power of noise at one channel.
     ///
     /// # Errors
-    /// [`CoreError`] for no snapshots, values that are not finite or all zero, or noise that is not
+    /// [`InputError`] for no snapshots, values that are not finite or all zero, or noise that is not
     /// positive.
     pub fn of(
         snapshots: ArrayView2<'_, Complex64>,
@@ -48,7 +48,7 @@ impl Cell {
     ) -> Result<Self, ArrayCalibrationError> {
         let (channels, count) = snapshots.dim();
         if channels == 0 || count == 0 {
-            return Err(CoreError::Empty {
+            return Err(InputError::Empty {
                 what: "snapshots".into(),
                 expected: "channels x snapshots".into(),
             }

@@ -1,8 +1,8 @@
 //! Coupling between all channels, from targets at known directions.
 
 use crate::fit::{Fit, Fitted, amplitude};
-use boresight_core::linalg::hermitian_eigen;
-use boresight_core::{Complex64, CoreError};
+use boresight_core::{Complex64, InputError};
+use boresight_math::linalg::hermitian_eigen;
 use ndarray::{Array1, Array2};
 
 /// Most rounds of alternation.
@@ -23,7 +23,7 @@ pub(crate) fn matrix(
     fit: &Fit,
     start: &Fitted,
     weights: &[f64],
-) -> Result<Option<Coupled>, CoreError> {
+) -> Result<Option<Coupled>, InputError> {
     let channels = start.factors.len();
     let known: Vec<usize> =
         (0..fit.seen.len()).filter(|&index| fit.seen[index].known.is_some()).collect();
@@ -65,7 +65,7 @@ pub(crate) fn matrix(
         // found = cross power^-1, both from the left of their adjoints.
         let adjoint = |m: &Array2<Complex64>| m.t().mapv(|z| z.conj());
         let right = adjoint(&cross);
-        let Some(solved) = boresight_core::linalg::solve(adjoint(&power).view(), right.view())?
+        let Some(solved) = boresight_math::linalg::solve(adjoint(&power).view(), right.view())?
         else {
             return Ok(None);
         };

@@ -1,6 +1,6 @@
 //! Errors of array calibration.
 
-use boresight_core::{CoreError, Details, Diagnose};
+use boresight_core::{Details, Diagnose, InputError};
 use thiserror::Error;
 
 /// Why an array cannot be calibrated.
@@ -9,7 +9,7 @@ use thiserror::Error;
 pub enum ArrayCalibrationError {
     /// An argument is wrong in itself.
     #[error(transparent)]
-    Argument(#[from] CoreError),
+    Argument(#[from] InputError),
     /// No cell holds a single strong target.
     #[error("none of {given} cells holds one strong target; expected {expected}")]
     NoCells {

@@ -3,8 +3,8 @@
 use crate::cells::Cell;
 use crate::orthonormal::orthonormal;
 use crate::plane_wave::{Cosines, PlaneWaves};
-use boresight_core::steering::cis;
-use boresight_core::{Array, Complex64, CoreError};
+use boresight_core::{Array, Complex64, InputError};
+use boresight_math::phasor::cis;
 use std::f64::consts::PI;
 
 /// Most rounds of alternation.
@@ -60,10 +60,10 @@ pub(crate) struct Fit {
 }
 
 impl Fit {
-    pub fn new(array: &Array, cells: &[&Cell]) -> Result<Self, CoreError> {
+    pub fn new(array: &Array, cells: &[&Cell]) -> Result<Self, InputError> {
         let waves = PlaneWaves::new(array);
         if let Some(cell) = cells.iter().find(|cell| cell.signal.len() != array.len()) {
-            return Err(CoreError::Shape {
+            return Err(InputError::Shape {
                 what: "snapshots".into(),
                 expected: format!("[{}, snapshots], all channels of the array", array.len()),
                 given: vec![cell.signal.len()],
@@ -82,7 +82,7 @@ impl Fit {
     /// alone were right.
     pub fn best_of_starts(&self, weights: &[f64]) -> Fitted {
         let ones = vec![Complex64::ONE; self.waves.positions.len()];
-        let order = boresight_core::order::descending(weights.iter().copied());
+        let order = boresight_math::order::descending(weights.iter().copied());
         let own = order.iter().take(STARTS).map(|&index| self.own(index));
         let fits = std::iter::once(ones).chain(own).map(|start| self.settle(start, weights));
         let cost =

@@ -3,8 +3,8 @@
 
 use crate::fit::{Fit, Fitted};
 use crate::orthonormal::orthonormal;
-use boresight_core::linalg::hermitian_eigen;
-use boresight_core::{Complex64, CoreError};
+use boresight_core::{Complex64, InputError};
+use boresight_math::linalg::hermitian_eigen;
 use ndarray::Array2;
 use std::f64::consts::PI;
 
@@ -112,7 +112,7 @@ impl Information {
     ///
     /// # Errors
     /// Those of the eigenvalues.
-    pub fn inverse(&self) -> Result<Inverse, CoreError> {
+    pub fn inverse(&self) -> Result<Inverse, InputError> {
         let complex = self.matrix.mapv(|x| Complex64::new(x, 0.0));
         let eigen = hermitian_eigen(complex.view())?;
         let largest = eigen.values.first().copied().unwrap_or_default().max(0.0);

@@ -15,7 +15,7 @@
 //! use boresight_array_calibration::{Cell, CalibrationOptions, calibrate};
 //! use boresight_core::presets::preset;
 //! use boresight_core::steering::steering_vector;
-//! use boresight_core::units::db_to_amplitude;
+//! use boresight_math::decibels::db_to_amplitude;
 //! use boresight_core::{Complex64, Direction};
 //! use ndarray::Axis;
 //!

@@ -1,7 +1,7 @@
 //! Options of array calibration.
 
 use boresight_core::Direction;
-use boresight_core::describe::Described;
+use boresight_options::Described;
 use serde::{Deserialize, Serialize};
 
 /// What is estimated.

@@ -1,8 +1,8 @@
 //! Plane waves over an array, by direction cosines along the axes it spans.
 
 use boresight_core::array::Position;
-use boresight_core::steering::cis;
 use boresight_core::{Array, Complex64, Direction};
+use boresight_math::phasor::cis;
 use std::f64::consts::PI;
 
 /// Cosines along y and z.

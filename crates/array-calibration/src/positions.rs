@@ -2,8 +2,8 @@
 
 use crate::fit::{Fit, Fitted};
 use crate::identifiable::{Information, half_wavelengths, never_determined};
-use boresight_core::CoreError;
-use boresight_core::steering::cis;
+use boresight_core::InputError;
+use boresight_math::phasor::cis;
 
 /// Most steps.
 const STEPS: usize = 50;
@@ -23,7 +23,7 @@ pub(crate) fn with_positions(
     fit: &Fit,
     start: &Fitted,
     weights: &[f64],
-) -> Result<Option<Fitted>, CoreError> {
+) -> Result<Option<Fitted>, InputError> {
     let channels = start.factors.len();
     let axes = &fit.waves.axes;
     let never = never_determined(axes.len(), fit.any_known(), true);

@@ -1,7 +1,7 @@
 //! What calibration gives.
 
-use boresight_core::describe::{Described, decibels};
 use boresight_core::{ArrayCalibration, Direction, Remark};
+use boresight_options::{Described, decibels};
 use serde::Serialize;
 
 /// Cells of data not used, as the plan has them and once calibrated.

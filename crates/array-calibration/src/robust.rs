@@ -50,7 +50,7 @@ pub(crate) fn weighed(fit: &Fit) -> Weighed {
 fn excess_of(residuals: &[f64], noise: &[f64]) -> f64 {
     let mut beyond: Vec<f64> =
         residuals.iter().zip(noise).map(|(left, variance)| (left - variance).max(0.0)).collect();
-    boresight_core::order::sort_numbers(&mut beyond);
+    boresight_math::order::sort_numbers(&mut beyond);
     // The lower of two in the middle: half of the cells may hold more than a target.
     beyond.get(beyond.len().saturating_sub(1) / 2).copied().unwrap_or_default()
 }

@@ -9,12 +9,12 @@ use crate::plane_wave::PlaneWaves;
 use crate::result::{CalibrationResult, CellUse, UsedCell};
 use crate::robust::{Weighed, weighed};
 use crate::{coupling, positions};
-use boresight_core::describe::{Naming, check};
-use boresight_core::units::db_to_power;
 use boresight_core::{
     Array, ArrayCalibration, CalibrationMethod, ChannelCalibration, Complex64, Direction,
     NotIdentifiable, Remark,
 };
+use boresight_math::decibels::db_to_power;
+use boresight_options::{Naming, check};
 use ndarray::Array2;
 
 /// Most channels: what is fitted grows with their square, and its inverse with their cube.
@@ -30,7 +30,7 @@ const DB_PER_LOG: f64 = 20.0 / std::f64::consts::LN_10;
 ///
 /// # Errors
 /// [`ArrayCalibrationError::NoCells`] where none is left; [`ArrayCalibrationError::NotDetermined`] for an array whose
-/// elements are all at one point; [`boresight_core::CoreError`] for options out of range, cells of other channels, or more
+/// elements are all at one point; [`boresight_core::InputError`] for options out of range, cells of other channels, or more
 /// than 256 channels.
 pub fn calibrate(
     array: &Array,
@@ -39,7 +39,7 @@ pub fn calibrate(
 ) -> Result<CalibrationResult, ArrayCalibrationError> {
     check(options, Naming::Rust)?;
     let plan = array.whole()?;
-    boresight_core::error::check_range(
+    boresight_math::error::check_range(
         "number of channels",
         plan.len() as f64,
         2.0,

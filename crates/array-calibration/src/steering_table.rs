@@ -5,8 +5,8 @@ use crate::error::ArrayCalibrationError;
 use crate::options::{CalibrationModel, CalibrationOptions};
 use crate::result::CalibrationResult;
 use crate::self_calibration::calibrate;
-use boresight_core::describe::Described;
-use boresight_core::{Array, CalibrationMethod, Complex64, CoreError, Direction};
+use boresight_core::{Array, CalibrationMethod, Complex64, Direction, InputError};
+use boresight_options::Described;
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
@@ -36,7 +36,7 @@ impl SteeringTable {
     /// coupling where the table has as many directions as channels. What it does not follow is in `residual_db`.
     ///
     /// # Errors
-    /// As [`calibrate`]; [`CoreError::Shape`] for responses of other channels than the array has.
+    /// As [`calibrate`]; [`InputError::Shape`] for responses of other channels than the array has.
     pub fn calibrate(&self, array: &Array) -> Result<CalibrationResult, ArrayCalibrationError> {
         let cells = self.cells(array)?;
         let options = CalibrationOptions {
@@ -59,7 +59,7 @@ impl SteeringTable {
         let channels = array.tx().len() * array.rx().len();
         let count = self.responses.len();
         let wrong = |what: &str, expected: String, given: Vec<usize>| {
-            ArrayCalibrationError::from(CoreError::Shape { what: what.into(), expected, given })
+            ArrayCalibrationError::from(InputError::Shape { what: what.into(), expected, given })
         };
         if count.saturating_mul(channels) > MOST_NUMBERS {
             return Err(wrong(

@@ -3,9 +3,9 @@
 use crate::error::CliError;
 use crate::files::{self, Files};
 use boresight_core::array::Position;
-use boresight_core::describe::Naming;
 use boresight_core::{Array, ArrayCalibration, presets};
 use boresight_formats::{RadarConfig, json};
+use boresight_options::Naming;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 

@@ -3,7 +3,6 @@
 use crate::arguments::LogPaths;
 use crate::error::CliError;
 use crate::files::Files;
-use boresight_calibrate::{CalibrationOptions, signs};
 use boresight_core::DriveLog;
 use boresight_formats::drive_log::clouds::{Clouds, Tables, format_of, is_cloud};
 use boresight_formats::drive_log::{
@@ -11,6 +10,7 @@ use boresight_formats::drive_log::{
 };
 use boresight_formats::radarscenes::{Companions, read_path, sequence_names};
 use boresight_formats::{DriveFormat, DriveRead, McapDriveReader, ReadReport};
+use boresight_mounting::{CalibrationOptions, signs};
 use std::error::Error;
 use std::fs::File;
 use std::io::Read;

@@ -3,13 +3,13 @@
 use crate::terminal::one_line;
 use boresight_aoa::AoaError;
 use boresight_array_calibration::ArrayCalibrationError;
-use boresight_calibrate::CalibrateError;
-use boresight_calibrate::network::NetworkError;
-use boresight_core::{CoreError, Details, Diagnose};
+use boresight_core::{Details, Diagnose, InputError};
 use boresight_fleet::FleetError;
 use boresight_formats::FormatError;
 use boresight_image::ImageError;
 use boresight_live::LiveError;
+use boresight_mounting::MountingError;
+use boresight_mounting::network::NetworkError;
 use boresight_neural::NeuralError;
 use boresight_pipeline::PipelineError;
 use boresight_signal::SignalError;
@@ -28,7 +28,7 @@ const INTERRUPTED: u8 = 130;
 pub enum CliError {
     /// An argument is wrong in itself.
     #[error(transparent)]
-    Argument(#[from] CoreError),
+    Argument(#[from] InputError),
     /// A file breaks the rules of its format.
     #[error(transparent)]
     Format(#[from] FormatError),
@@ -43,7 +43,7 @@ pub enum CliError {
     ArrayCalibration(#[from] ArrayCalibrationError),
     /// Calibration refused.
     #[error(transparent)]
-    Calibrate(#[from] CalibrateError),
+    Calibrate(#[from] MountingError),
     /// A server cannot run.
     #[error(transparent)]
     Live(#[from] LiveError),

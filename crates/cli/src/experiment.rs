@@ -6,7 +6,7 @@ use crate::files::{self, Files};
 use crate::output::remark;
 use crate::run::Run;
 use crate::terminal::name;
-use boresight_core::{CoreError, Progress};
+use boresight_core::{InputError, Progress};
 use boresight_fleet::Part;
 use boresight_validate::Outcome;
 use boresight_validate::experiment::{self, Experiment, How};
@@ -93,7 +93,7 @@ where
     };
     if let Some(part) = arguments.part {
         let Some(folder) = folder else {
-            return Err(CoreError::Empty {
+            return Err(InputError::Empty {
                 what: "--out".into(),
                 expected: "a folder for the part's records".into(),
             }

@@ -1,6 +1,6 @@
 //! Options that describe themselves as flags: `iaa.threshold_db` is `--iaa-threshold DB`.
 
-use boresight_core::describe::{At, Choice, Described, Field, Kind, Naming, Record, naming};
+use boresight_options::{At, Choice, Described, Field, Kind, Naming, Record, naming};
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::error::ErrorKind;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
@@ -323,7 +323,7 @@ fn set(values: &mut Value, path: &[&'static str], value: Value) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use boresight_core::describe::{differing_fields, lies_in};
+    use boresight_options::{differing_fields, lies_in};
     use clap::Parser;
     use std::fmt::Debug;
 
@@ -406,8 +406,8 @@ mod tests {
         every_flag::<boresight_pipeline::ChainOptions>(16);
         every_flag::<boresight_array_calibration::CalibrationOptions>(5);
         every_flag::<boresight_pipeline::regions::RegionChainOptions>(19);
-        every_flag::<boresight_calibrate::CalibrationOptions>(19);
-        every_flag::<boresight_calibrate::SignOptions>(2);
+        every_flag::<boresight_mounting::CalibrationOptions>(19);
+        every_flag::<boresight_mounting::SignOptions>(2);
         every_flag::<boresight_simulate::DriveOptions>(19);
         every_flag::<boresight_simulate::SnapshotRequest>(10);
         every_flag::<boresight_simulate::SceneSampling>(4);

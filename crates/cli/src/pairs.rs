@@ -3,7 +3,7 @@
 use crate::error::CliError;
 use crate::flags::fields_of;
 use boresight_core::Diagnose;
-use boresight_core::describe::{Described, Naming, check};
+use boresight_options::{Described, Naming, check};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 

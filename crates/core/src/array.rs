@@ -1,9 +1,9 @@
 //! Antenna arrays: element positions, real or virtual.
 
 use crate::correction::Correction;
-use crate::describe::Described;
-use crate::error::{CoreError, check_finite};
 use crate::lattice::Lattice;
+use boresight_math::error::{InputError, check_finite};
+use boresight_options::Described;
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -57,10 +57,10 @@ impl Array {
     /// An array with one transmitter at the origin and receivers at `positions`.
     ///
     /// # Errors
-    /// [`CoreError::Empty`] without elements, [`CoreError::NotFinite`] for a coordinate that is
-    /// not finite, [`CoreError::OutOfRange`] above [`MAX_ELEMENTS`] or beyond a million half
+    /// [`InputError::Empty`] without elements, [`InputError::NotFinite`] for a coordinate that is
+    /// not finite, [`InputError::OutOfRange`] above [`MAX_ELEMENTS`] or beyond a million half
     /// wavelengths.
-    pub fn new(positions: &[Position]) -> Result<Self, CoreError> {
+    pub fn new(positions: &[Position]) -> Result<Self, InputError> {
         Self::mimo(&[[0.0; 3]], positions)
     }
 
@@ -68,12 +68,12 @@ impl Array {
     ///
     /// # Errors
     /// As [`Array::new`].
-    pub fn mimo(tx: &[Position], rx: &[Position]) -> Result<Self, CoreError> {
+    pub fn mimo(tx: &[Position], rx: &[Position]) -> Result<Self, InputError> {
         check_positions("transmitter positions", tx)?;
         check_positions("receiver positions", rx)?;
         let count = tx.len().saturating_mul(rx.len());
         if count > MAX_ELEMENTS {
-            return Err(CoreError::OutOfRange {
+            return Err(InputError::OutOfRange {
                 what: "number of array elements".into(),
                 expected: format!("at most {MAX_ELEMENTS}"),
                 given: count as f64,
@@ -103,12 +103,12 @@ impl Array {
     /// reads raw samples takes the sign off ([`Array::is_inverted`]).
     ///
     /// # Errors
-    /// [`CoreError::Shape`] for another number of transmitters or receivers.
-    pub fn with_inverted(mut self, tx: &[bool], rx: &[bool]) -> Result<Self, CoreError> {
+    /// [`InputError::Shape`] for another number of transmitters or receivers.
+    pub fn with_inverted(mut self, tx: &[bool], rx: &[bool]) -> Result<Self, InputError> {
         for (what, given, antennas) in [("transmitters", tx, &self.tx), ("receivers", rx, &self.rx)]
         {
             if given.len() != antennas.len() {
-                return Err(CoreError::Shape {
+                return Err(InputError::Shape {
                     what: format!("inverted {what}"),
                     expected: format!("[{}]", antennas.len()),
                     given: vec![given.len()],
@@ -139,7 +139,7 @@ impl Array {
     ///
     /// # Errors
     /// As [`Array::new`].
-    pub fn ula(elements: usize) -> Result<Self, CoreError> {
+    pub fn ula(elements: usize) -> Result<Self, InputError> {
         let positions: Vec<Position> =
             (0..elements.min(MAX_ELEMENTS + 1)).map(|k| [0.0, k as f64, 0.0]).collect();
         Self::new(&positions)
@@ -150,7 +150,7 @@ impl Array {
     ///
     /// # Errors
     /// As [`Array::new`].
-    pub fn whole(&self) -> Result<Self, CoreError> {
+    pub fn whole(&self) -> Result<Self, InputError> {
         Self::mimo(&self.tx, &self.rx)?.with_inverted(&self.inverted_tx, &self.inverted_rx)
     }
 
@@ -170,10 +170,10 @@ impl Array {
     /// The elements at `indices`, in that order; for sub-arrays such as one row of a plane.
     ///
     /// # Errors
-    /// [`CoreError::Empty`] for no indices, [`CoreError::OutOfRange`] for one beyond the array.
-    pub fn select(&self, indices: &[usize]) -> Result<Self, CoreError> {
+    /// [`InputError::Empty`] for no indices, [`InputError::OutOfRange`] for one beyond the array.
+    pub fn select(&self, indices: &[usize]) -> Result<Self, InputError> {
         if indices.is_empty() {
-            return Err(CoreError::Empty {
+            return Err(InputError::Empty {
                 what: "element indices".into(),
                 expected: "at least one".into(),
             });
@@ -181,7 +181,7 @@ impl Array {
         let mut kept = Self { positions: vec![], channels: vec![], ..self.clone() };
         for &index in indices {
             if index >= self.len() {
-                return Err(CoreError::OutOfRange {
+                return Err(InputError::OutOfRange {
                     what: "element index".into(),
                     expected: format!("less than {}", self.len()),
                     given: index as f64,
@@ -300,13 +300,13 @@ fn same_position(p: &Position, q: &Position) -> bool {
     p.iter().zip(q).all(|(a, b)| (a - b).abs() < SAME_POSITION)
 }
 
-fn check_positions(what: &str, positions: &[Position]) -> Result<(), CoreError> {
+fn check_positions(what: &str, positions: &[Position]) -> Result<(), InputError> {
     if positions.is_empty() {
-        return Err(CoreError::Empty { what: what.into(), expected: "at least one".into() });
+        return Err(InputError::Empty { what: what.into(), expected: "at least one".into() });
     }
     check_finite(what, positions.iter().flatten().copied())?;
     if let Some(&given) = positions.iter().flatten().find(|x| x.abs() > 1e6) {
-        return Err(CoreError::OutOfRange {
+        return Err(InputError::OutOfRange {
             what: what.into(),
             expected: "coordinates within 1e6 half wavelengths of the origin".into(),
             given,
@@ -339,11 +339,11 @@ mod tests {
 
     #[test]
     fn bad_positions_are_refused_by_name() {
-        assert!(matches!(Array::new(&[]), Err(CoreError::Empty { .. })));
+        assert!(matches!(Array::new(&[]), Err(InputError::Empty { .. })));
         let nan = Array::new(&[[0.0; 3], [0.0, f64::NAN, 0.0]]);
-        assert!(matches!(nan, Err(CoreError::NotFinite { index: 4, .. })));
-        assert!(matches!(Array::ula(0), Err(CoreError::Empty { .. })));
-        assert!(matches!(Array::ula(5000), Err(CoreError::OutOfRange { .. })));
+        assert!(matches!(nan, Err(InputError::NotFinite { index: 4, .. })));
+        assert!(matches!(Array::ula(0), Err(InputError::Empty { .. })));
+        assert!(matches!(Array::ula(5000), Err(InputError::OutOfRange { .. })));
     }
 
     #[test]
@@ -358,7 +358,7 @@ mod tests {
         assert_eq!(turned.positions(), array.positions());
         assert!(turned != array);
         let refused = array.with_inverted(&[false], &[false, false]).unwrap_err();
-        assert!(matches!(refused, CoreError::Shape { .. }), "{refused}");
+        assert!(matches!(refused, InputError::Shape { .. }), "{refused}");
     }
 
     #[test]
@@ -368,6 +368,6 @@ mod tests {
         let distinct = array.without_duplicates();
         assert_eq!(distinct.len(), 3);
         assert_eq!(distinct.channels()[2], Channel { tx: 1, rx: 1 });
-        assert!(matches!(array.select(&[9]), Err(CoreError::OutOfRange { .. })));
+        assert!(matches!(array.select(&[9]), Err(InputError::OutOfRange { .. })));
     }
 }

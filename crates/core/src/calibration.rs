@@ -1,10 +1,10 @@
 //! What is known of how a real array departs from its plan.
 
 use crate::array::{Array, Channel, Position};
-use crate::describe::{self, Described, Naming};
-use crate::error::{CoreError, check_finite};
-use crate::steering::cis;
-use crate::units::db_to_amplitude;
+use boresight_math::decibels::db_to_amplitude;
+use boresight_math::error::{InputError, check_finite};
+use boresight_math::phasor::cis;
+use boresight_options::{Described, Naming, check};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
@@ -134,19 +134,19 @@ impl ArrayCalibration {
     /// Checks lengths and ranges.
     ///
     /// # Errors
-    /// [`CoreError`] naming the field.
-    pub fn check(&self) -> Result<(), CoreError> {
+    /// [`InputError`] naming the field.
+    pub fn check(&self) -> Result<(), InputError> {
         self.check_named(Naming::Rust)
     }
 
     /// As [`ArrayCalibration::check`], in the names of `naming`.
     ///
     /// # Errors
-    /// [`CoreError`] naming the field.
-    pub fn check_named(&self, naming: Naming) -> Result<(), CoreError> {
+    /// [`InputError`] naming the field.
+    pub fn check_named(&self, naming: Naming) -> Result<(), InputError> {
         let count = Array::mimo(&self.tx, &self.rx)?.len();
         let wrong = |what: &str, expected: String, given: Vec<usize>| {
-            Err(CoreError::Shape { what: what.into(), expected, given })
+            Err(InputError::Shape { what: what.into(), expected, given })
         };
         if self.channels.len() != count {
             let expected = format!("[{count}], one a transmitter and receiver");
@@ -169,7 +169,7 @@ impl ArrayCalibration {
             }
             check_finite("coupling", coupling.iter().flatten().flat_map(|z| [z.re, z.im]))?;
         }
-        describe::check(self, naming)
+        check(self, naming)
     }
 
     /// What a plane wave's response in each channel is multiplied by, coupling aside.
@@ -189,8 +189,8 @@ impl ArrayCalibration {
     /// Refuses an array of another plan than this was made for.
     ///
     /// # Errors
-    /// [`CoreError::OtherArray`].
-    pub fn check_plan(&self, array: &Array) -> Result<(), CoreError> {
+    /// [`InputError::OtherArray`].
+    pub fn check_plan(&self, array: &Array) -> Result<(), InputError> {
         if same_plan(&self.tx, array.tx()) && same_plan(&self.rx, array.rx()) {
             return Ok(());
         }
@@ -199,7 +199,7 @@ impl ArrayCalibration {
             let at = tx.iter().chain(rx).find(|p| **p != [0.0; 3]).copied().unwrap_or_default();
             format!("{} transmitters x {} receivers, one at {at:?}", channels[0], channels[1])
         };
-        Err(CoreError::OtherArray {
+        Err(InputError::OtherArray {
             expected: said(&self.tx, &self.rx),
             given: said(array.tx(), array.rx()),
         })

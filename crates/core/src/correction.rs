@@ -1,7 +1,7 @@
 //! What turns measured channels into those of an array without errors.
 
-use crate::error::CoreError;
-use crate::linalg::solve;
+use boresight_math::error::InputError;
+use boresight_math::linalg::solve;
 use ndarray::{Array1, Array2};
 use num_complex::Complex64;
 
@@ -20,15 +20,15 @@ impl Correction {
     /// of a response, dB.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for coupling that cannot be undone.
+    /// [`InputError::OutOfRange`] for coupling that cannot be undone.
     pub(crate) fn new(
         factors: Vec<Complex64>,
         coupling: Option<&[Vec<Complex64>]>,
         range_bias_m: f64,
         residual_db: Option<f64>,
-    ) -> Result<Self, CoreError> {
+    ) -> Result<Self, InputError> {
         let each = factors.into_iter().map(|factor| factor.inv()).collect();
-        let both = |rows: &[Vec<Complex64>]| Ok::<_, CoreError>([inverse(rows)?, matrix(rows)]);
+        let both = |rows: &[Vec<Complex64>]| Ok::<_, InputError>([inverse(rows)?, matrix(rows)]);
         let uncoupling = coupling.map(both).transpose()?;
         Ok(Self { each, uncoupling, range_bias_m, residual_db })
     }
@@ -84,7 +84,7 @@ fn matrix(rows: &[Vec<Complex64>]) -> Array2<Complex64> {
 }
 
 /// The inverse of a coupling matrix.
-fn inverse(rows: &[Vec<Complex64>]) -> Result<Array2<Complex64>, CoreError> {
+fn inverse(rows: &[Vec<Complex64>]) -> Result<Array2<Complex64>, InputError> {
     let matrix = matrix(rows);
     let unit = Array2::from_diag(&Array1::from_elem(rows.len(), Complex64::ONE));
     let norm = |m: &Array2<Complex64>| m.iter().map(Complex64::norm_sqr).sum::<f64>().sqrt();
@@ -93,7 +93,7 @@ fn inverse(rows: &[Vec<Complex64>]) -> Result<Array2<Complex64>, CoreError> {
     let condition = found.as_ref().map_or(f64::INFINITY, |inverse| norm(inverse) * norm(&matrix));
     match found {
         Some(inverse) if condition < MOST_CONDITION => Ok(inverse),
-        _ => Err(CoreError::OutOfRange {
+        _ => Err(InputError::OutOfRange {
             what: "condition number of the coupling".into(),
             expected: format!("at most {MOST_CONDITION:e}"),
             given: condition,

@@ -1,7 +1,7 @@
 //! Directions in the sensor frame.
 
-use crate::describe::Described;
-use crate::error::{CoreError, check_range};
+use boresight_math::error::{InputError, check_range};
+use boresight_options::Described;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
@@ -50,8 +50,8 @@ impl Direction {
     /// Checks that both angles are within a quarter turn of boresight.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] otherwise, also for NaN.
-    pub fn check(&self) -> Result<(), CoreError> {
+    /// [`InputError::OutOfRange`] otherwise, also for NaN.
+    pub fn check(&self) -> Result<(), InputError> {
         check_range("azimuth_rad", self.azimuth_rad, -FRAC_PI_2, FRAC_PI_2)?;
         check_range("elevation_rad", self.elevation_rad, -FRAC_PI_2, FRAC_PI_2)
     }

@@ -5,7 +5,7 @@
 //! standing target at azimuth `a` seen by a radar that moves with `(vx, vy)` in its own frame has
 //! `-range_rate = vx cos a + vy sin a`.
 
-use crate::describe::Described;
+use boresight_options::Described;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 

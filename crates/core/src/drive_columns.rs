@@ -1,7 +1,7 @@
 //! A drive as columns of numbers, which cost a program in another language little.
 
-use crate::describe::{Described, columns};
 use crate::drive::{Detection, DriveLog, MotionSample, Pose, Sensor};
+use boresight_options::{Described, columns};
 use serde::Serialize;
 
 /// Radars, scans, detections and motion of a drive.

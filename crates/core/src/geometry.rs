@@ -1,8 +1,8 @@
 //! What an array looks like to its users.
 
 use crate::array::{Array, Channel, Extent, Position};
-use crate::describe::Described;
 use crate::resolution::resolution_rad;
+use boresight_options::Described;
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 

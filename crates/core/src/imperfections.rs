@@ -1,12 +1,13 @@
 //! What makes a real array differ from its drawing: gain, phase, position and coupling.
 
 use crate::array::{Array, Position};
-use crate::describe::Described;
 use crate::direction::Direction;
-use crate::error::{CoreError, check_finite, check_range};
-use crate::random::Random;
-use crate::steering::{cis, steering_vector};
-use crate::units::db_to_amplitude;
+use crate::steering::steering_vector;
+use boresight_math::decibels::db_to_amplitude;
+use boresight_math::error::{InputError, check_finite, check_range};
+use boresight_math::phasor::cis;
+use boresight_math::random::Random;
+use boresight_options::Described;
 use ndarray::{Array1, Array2};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
@@ -61,7 +62,7 @@ impl ImperfectionOptions {
     ///
     /// # Errors
     /// As [`Imperfections::random`].
-    pub fn draw(&self, array: &Array, seed: u64) -> Result<Option<Imperfections>, CoreError> {
+    pub fn draw(&self, array: &Array, seed: u64) -> Result<Option<Imperfections>, InputError> {
         if self.spread == ImperfectionSpread::default() {
             return Ok(None);
         }
@@ -83,8 +84,12 @@ impl Imperfections {
     /// Draws errors for `array` from normal distributions, stream `u64::MAX` of `seed`.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for a negative or not finite spread, or coupling above 0 dB.
-    pub fn random(array: &Array, spread: ImperfectionSpread, seed: u64) -> Result<Self, CoreError> {
+    /// [`InputError::OutOfRange`] for a negative or not finite spread, or coupling above 0 dB.
+    pub fn random(
+        array: &Array,
+        spread: ImperfectionSpread,
+        seed: u64,
+    ) -> Result<Self, InputError> {
         check_range("gain spread (dB)", spread.gain_db, 0.0, 100.0)?;
         check_range("phase spread (rad)", spread.phase_rad, 0.0, 100.0)?;
         check_range("position spread (half wavelengths)", spread.position, 0.0, 100.0)?;
@@ -108,9 +113,9 @@ impl Imperfections {
     /// Checks that there is one finite entry an element.
     ///
     /// # Errors
-    /// [`CoreError::Shape`] or [`CoreError::NotFinite`].
-    pub fn check(&self, elements: usize) -> Result<(), CoreError> {
-        let expected = |what: &str, given: Vec<usize>, expected: String| CoreError::Shape {
+    /// [`InputError::Shape`] or [`InputError::NotFinite`].
+    pub fn check(&self, elements: usize) -> Result<(), InputError> {
+        let expected = |what: &str, given: Vec<usize>, expected: String| InputError::Shape {
             what: what.into(),
             expected,
             given,
@@ -146,7 +151,7 @@ impl Imperfections {
         &self,
         array: &Array,
         direction: Direction,
-    ) -> Result<Array1<Complex64>, CoreError> {
+    ) -> Result<Array1<Complex64>, InputError> {
         self.check(array.len())?;
         let moved: Vec<Position> = array
             .positions()
@@ -219,6 +224,6 @@ mod tests {
     fn wrong_lengths_are_named() {
         let array = Array::ula(4).unwrap();
         let error = Imperfections::none(3).steering_vector(&array, Direction::default());
-        assert!(matches!(error, Err(CoreError::Shape { .. })));
+        assert!(matches!(error, Err(InputError::Shape { .. })));
     }
 }

@@ -1,12 +1,12 @@
 //! What one call may take, known before it starts: one rule for all of them.
 //!
 //! A call that would take more operations or memory than the limits of its thread is refused with
-//! [`CoreError::TooLarge`], which names the limit. Operations are complex multiplications with an addition, by the
+//! [`InputError::TooLarge`], which names the limit. Operations are complex multiplications with an addition, by the
 //! leading terms of the algorithm, with the iterations that it is asked for or, where it stops by itself, usually takes:
 //! about a nanosecond each.
 
-use crate::describe::{self, Described, Naming};
-use crate::error::CoreError;
+use boresight_math::error::InputError;
+use boresight_options::{Described, Naming};
 use serde::{Deserialize, Serialize};
 use std::cell::Cell;
 
@@ -42,26 +42,26 @@ impl Limits {
     /// Makes them those of this thread, for calls to come.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for less than 1 and for NaN.
-    pub fn set(self) -> Result<(), CoreError> {
-        describe::check(&self, Naming::Rust)?;
+    /// [`InputError::OutOfRange`] for less than 1 and for NaN.
+    pub fn set(self) -> Result<(), InputError> {
+        boresight_options::check(&self, Naming::Rust)?;
         CURRENT.set(self);
         Ok(())
     }
 }
 
-fn check(what: &str, measure: &'static str, given: f64, most: f64) -> Result<(), CoreError> {
+fn check(what: &str, measure: &'static str, given: f64, most: f64) -> Result<(), InputError> {
     if given <= most {
         return Ok(());
     }
-    Err(CoreError::TooLarge { what: what.into(), measure, most, given })
+    Err(InputError::TooLarge { what: what.into(), measure, most, given })
 }
 
 /// Checks what is about to be done.
 ///
 /// # Errors
-/// [`CoreError::TooLarge`].
-pub fn check_operations(what: &str, operations: f64) -> Result<(), CoreError> {
+/// [`InputError::TooLarge`].
+pub fn check_operations(what: &str, operations: f64) -> Result<(), InputError> {
     check(what, "operations", operations, Limits::current().operations)
 }
 
@@ -69,8 +69,8 @@ pub fn check_operations(what: &str, operations: f64) -> Result<(), CoreError> {
 /// Returns the product.
 ///
 /// # Errors
-/// [`CoreError::TooLarge`].
-pub fn check_bytes(what: &str, sizes: &[usize], bytes: usize) -> Result<usize, CoreError> {
+/// [`InputError::TooLarge`].
+pub fn check_bytes(what: &str, sizes: &[usize], bytes: usize) -> Result<usize, InputError> {
     let count: f64 = sizes.iter().map(|&size| size as f64).product();
     check(what, "bytes", count * bytes as f64, Limits::current().bytes)?;
     // As whole as the sizes are, and small enough to be exact; a product of sizes may overflow before a 0.
@@ -80,7 +80,7 @@ pub fn check_bytes(what: &str, sizes: &[usize], bytes: usize) -> Result<usize, C
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::Diagnose;
+    use boresight_math::error::Diagnose;
 
     #[test]
     fn sizes_are_multiplied_without_overflow() {
@@ -89,7 +89,7 @@ mod tests {
         assert_eq!(check_bytes("a", &[most / 16, 2], 8), Ok(most / 8));
         assert_eq!(check_bytes("a", &[usize::MAX, usize::MAX, 0], 8), Ok(0));
         let refused = check_bytes("a", &[usize::MAX, 2], 1);
-        assert!(matches!(refused, Err(CoreError::TooLarge { given, .. }) if given > 1e9));
+        assert!(matches!(refused, Err(InputError::TooLarge { given, .. }) if given > 1e9));
         let refused = check_bytes("the map", &[most / 8 + 1], 8).unwrap_err();
         assert_eq!(refused.code(), "too-large");
         assert_eq!(

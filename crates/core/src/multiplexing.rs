@@ -1,7 +1,7 @@
 //! How the transmitters of a MIMO radar share the chirps: the factor by which each sends each chirp.
 
-use crate::describe::Described;
-use crate::steering::cis;
+use boresight_math::phasor::cis;
+use boresight_options::Described;
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;

@@ -1,8 +1,8 @@
 //! Arrays of known radars.
 
 use crate::array::{Array, Position};
-use crate::error::{CoreError, check_range};
-use crate::order::descending;
+use boresight_math::error::{InputError, check_range};
+use boresight_math::order::descending;
 
 /// Names [`preset`] knows, beside `ula<N>`.
 pub const PRESETS: [&str; 7] =
@@ -11,9 +11,9 @@ pub const PRESETS: [&str; 7] =
 /// A named array: one of [`PRESETS`], or `ulaN` for N half-wavelength elements (`ula8`).
 ///
 /// # Errors
-/// [`CoreError::Unknown`] for any other name; [`CoreError::OutOfRange`] or [`CoreError::Empty`]
+/// [`InputError::Unknown`] for any other name; [`InputError::OutOfRange`] or [`InputError::Empty`]
 /// for an N that makes no array.
-pub fn preset(name: &str) -> Result<Array, CoreError> {
+pub fn preset(name: &str) -> Result<Array, InputError> {
     match name {
         "awr1642" => awr1642(),
         "awr1843" | "iwr6843isk" => awr1843(),
@@ -23,7 +23,7 @@ pub fn preset(name: &str) -> Result<Array, CoreError> {
         "lrr48" => lrr48(),
         _ => match name.strip_prefix("ula").and_then(|digits| digits.parse().ok()) {
             Some(elements) => Array::ula(elements),
-            None => Err(CoreError::Unknown {
+            None => Err(InputError::Unknown {
                 what: "array preset".into(),
                 expected: format!("{}, ulaN (such as ula8)", PRESETS.join(", ")),
                 given: name.into(),
@@ -34,7 +34,7 @@ pub fn preset(name: &str) -> Result<Array, CoreError> {
 
 /// Texas Instruments AWR1642BOOST: 2 transmitters and 4 receivers, 8 virtual elements in azimuth.
 /// The element index rises toward the board's right, so toward -y.
-fn awr1642() -> Result<Array, CoreError> {
+fn awr1642() -> Result<Array, InputError> {
     Array::mimo(&along_y(&[0.0, -4.0]), &along_y(&[0.0, -1.0, -2.0, -3.0]))
 }
 
@@ -45,7 +45,7 @@ fn awr1642() -> Result<Array, CoreError> {
 /// IWR6843ISK and AWR6843ISK have the same layout at 60 GHz: `antGeometry0 0 -1 -2 -3 -2 -3 -4 -5 -4 -5 -6 -7` and
 /// `antGeometry1 -1 -1 -1 -1 0 0 0 0 -1 -1 -1 -1` in the configurations of Texas Instruments' 3D People Tracking. Not
 /// verified on a 6843 board.
-fn awr1843() -> Result<Array, CoreError> {
+fn awr1843() -> Result<Array, InputError> {
     let tx = [[0.0, 0.0, 0.0], [0.0, -2.0, 1.0], [0.0, -4.0, 0.0]];
     Array::mimo(&tx, &along_y(&[0.0, -1.0, -2.0, -3.0]))
 }
@@ -54,7 +54,7 @@ fn awr1843() -> Result<Array, CoreError> {
 /// elements in a block of 2 x 2 and one of 4 x 2 below it; two receivers are turned. After
 /// `antGeometry0 -1 -1 0 0 -3 -3 -2 -2 -1 -1 0 0`, `antGeometry1 -1 0 -1 0 -3 -2 -3 -2 -3 -2 -3 -2` and
 /// `antPhaseRot 1 -1 1 -1 ...` in the configurations of 3D People Tracking. Not verified on a board.
-fn iwr6843aop() -> Result<Array, CoreError> {
+fn iwr6843aop() -> Result<Array, InputError> {
     let tx = [[0.0, 0.0, 0.0], [0.0, -2.0, -2.0], [0.0, 0.0, -2.0]];
     let rx = [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [0.0, 1.0, 1.0]];
     Array::mimo(&tx, &rx)?.with_inverted(&[false; 3], &[false, true, false, true])
@@ -64,7 +64,7 @@ fn iwr6843aop() -> Result<Array, CoreError> {
 /// corners of a square of 4 x 4; two receivers are turned. After `antGeometry0 0 0 -1 -1 -2 -2 -3 -3 -2 -2 -3 -3`,
 /// `antGeometry1 0 -1 -1 0 0 -1 -1 0 -2 -3 -3 -2` and `antPhaseRot 1 -1 -1 1 ...` in the configurations of Overhead 3D
 /// People Counting. Not verified on a board.
-fn iwr6843ods() -> Result<Array, CoreError> {
+fn iwr6843ods() -> Result<Array, InputError> {
     let tx = [[0.0, 0.0, 0.0], [0.0, -2.0, 0.0], [0.0, -2.0, -2.0]];
     let rx = [[0.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, -1.0, -1.0], [0.0, -1.0, 0.0]];
     Array::mimo(&tx, &rx)?.with_inverted(&[false; 3], &[false, true, true, false])
@@ -72,7 +72,7 @@ fn iwr6843ods() -> Result<Array, CoreError> {
 
 /// Azimuth array of Texas Instruments' four-chip cascade board: 9 transmitters and 16 receivers in
 /// one row, 86 distinct virtual elements without a gap.
-fn cascade86() -> Result<Array, CoreError> {
+fn cascade86() -> Result<Array, InputError> {
     cascade_row(
         &[11, 10, 9, 8, 7, 6, 5, 4, 3],
         &[12, 13, 14, 15, 0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7],
@@ -105,9 +105,9 @@ const CASCADE_RX: [f64; 16] =
 /// earlier one has. Of all of the row's transmitters it is `cascade86`.
 ///
 /// # Errors
-/// [`CoreError::OutOfRange`] for a transmitter above 11 or a receiver above 15; [`CoreError::Empty`] where no transmitter
+/// [`InputError::OutOfRange`] for a transmitter above 11 or a receiver above 15; [`InputError::Empty`] where no transmitter
 /// is in the row.
-pub fn cascade_row(transmitters: &[usize], receivers: &[usize]) -> Result<Array, CoreError> {
+pub fn cascade_row(transmitters: &[usize], receivers: &[usize]) -> Result<Array, InputError> {
     let within = |what, numbers: &[usize], most: usize| {
         numbers.iter().try_for_each(|&n| check_range(what, n as f64, 0.0, most as f64))
     };
@@ -125,7 +125,7 @@ pub fn cascade_row(transmitters: &[usize], receivers: &[usize]) -> Result<Array,
 /// A sparse long-range array of 6 transmitters and 8 receivers: 48 distinct virtual elements over
 /// 92 half wavelengths, peak sidelobe -14.5 dB. The radar of the AAETR paper has as many of each;
 /// their positions are unpublished.
-fn lrr48() -> Result<Array, CoreError> {
+fn lrr48() -> Result<Array, InputError> {
     Array::mimo(
         &along_y(&[0.0, 18.0, 30.0, 42.0, 62.0, 78.0]),
         &along_y(&[0.0, 3.0, 4.0, 5.0, 7.0, 8.0, 13.0, 14.0]),
@@ -233,6 +233,6 @@ mod tests {
             assert!(message.contains("lrr48"), "{message}");
         }
         let empty = preset("ula0").unwrap_err();
-        assert!(matches!(empty, CoreError::Empty { .. }), "{empty}");
+        assert!(matches!(empty, InputError::Empty { .. }), "{empty}");
     }
 }

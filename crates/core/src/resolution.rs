@@ -17,7 +17,7 @@ use std::f64::consts::FRAC_PI_2;
 /// use boresight_core::resolution::resolution_rad;
 ///
 /// assert!((resolution_rad(&preset("ula8")?).sin() - 2.0 / 8.0).abs() < 1e-12);
-/// # Ok::<(), boresight_core::CoreError>(())
+/// # Ok::<(), boresight_core::InputError>(())
 /// ```
 pub fn resolution_rad(array: &Array) -> f64 {
     let aperture = array.aperture();

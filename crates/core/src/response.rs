@@ -3,7 +3,7 @@
 use crate::array::{Array, Position};
 use crate::calibration::ArrayCalibration;
 use crate::correction::Correction;
-use crate::error::CoreError;
+use boresight_math::error::InputError;
 use ndarray::ArrayViewMut2;
 use num_complex::Complex64;
 use std::sync::Arc;
@@ -13,9 +13,9 @@ impl Array {
     /// [`Correction`] that turns measured snapshots into those of such elements.
     ///
     /// # Errors
-    /// [`CoreError::OtherArray`] for a calibration of another array; what is wrong with the
-    /// calibration; [`CoreError::OutOfRange`] for coupling that cannot be undone.
-    pub fn calibrated(&self, calibration: &ArrayCalibration) -> Result<Self, CoreError> {
+    /// [`InputError::OtherArray`] for a calibration of another array; what is wrong with the
+    /// calibration; [`InputError::OutOfRange`] for coupling that cannot be undone.
+    pub fn calibrated(&self, calibration: &ArrayCalibration) -> Result<Self, InputError> {
         calibration.check()?;
         calibration.check_plan(self)?;
         let moved = |(p, channel): (&Position, _)| {
@@ -35,13 +35,13 @@ impl Array {
     /// Corrects snapshots of the array's elements: elements x snapshots.
     ///
     /// # Errors
-    /// [`CoreError::Shape`] for snapshots of other elements, and for coupling where the array has not
+    /// [`InputError::Shape`] for snapshots of other elements, and for coupling where the array has not
     /// all of the channels that couple.
-    pub fn correct(&self, mut snapshots: ArrayViewMut2<'_, Complex64>) -> Result<(), CoreError> {
+    pub fn correct(&self, mut snapshots: ArrayViewMut2<'_, Complex64>) -> Result<(), InputError> {
         let Some(correction) = self.correction() else { return Ok(()) };
         let channels: Vec<usize> =
             self.channels().iter().map(|c| c.tx * self.rx().len() + c.rx).collect();
-        let wrong = |expected: String| CoreError::Shape {
+        let wrong = |expected: String| InputError::Shape {
             what: "snapshots".into(),
             expected,
             given: vec![snapshots.nrows(), snapshots.ncols()],

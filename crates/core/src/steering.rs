@@ -2,15 +2,10 @@
 
 use crate::array::Array;
 use crate::direction::Direction;
+use boresight_math::phasor::cis;
 use ndarray::{Array1, Array2};
 use num_complex::Complex64;
 use std::f64::consts::PI;
-
-/// `exp(j phase_rad)`, the same to the last bit on every platform.
-pub fn cis(phase_rad: f64) -> Complex64 {
-    let (sin, cos) = libm::sincos(phase_rad);
-    Complex64::new(cos, sin)
-}
 
 /// Response of each element to a wave from `direction`: `a_k = exp(j pi p_k . u)`, with `p_k` in
 /// half wavelengths and `u` the unit vector toward the source.

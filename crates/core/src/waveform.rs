@@ -1,9 +1,9 @@
 //! The FMCW waveform of a MIMO radar and the numbers that follow from it.
 
-use crate::describe::Described;
-use crate::error::{CoreError, check_positive, check_range};
 use crate::multiplexing::Multiplexing;
 use crate::units::SPEED_OF_LIGHT_MPS;
+use boresight_math::error::{InputError, check_positive, check_range};
+use boresight_options::Described;
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
@@ -79,14 +79,14 @@ impl Waveform {
     /// Checks that every quantity is finite, in its domain and consistent with the others.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] naming the first that is not.
-    pub fn check(&self) -> Result<(), CoreError> {
+    /// [`InputError::OutOfRange`] naming the first that is not.
+    pub fn check(&self) -> Result<(), InputError> {
         check_positive("start_frequency_hz", self.start_frequency_hz)?;
         check_positive("slope_hz_per_s", self.slope_hz_per_s)?;
         check_positive("sample_rate_hz", self.sample_rate_hz)?;
         check_range("samples", self.samples as f64, 2.0, 65_536.0)?;
         if self.sampling == Sampling::Real && !self.samples.is_multiple_of(2) {
-            return Err(CoreError::OutOfRange {
+            return Err(InputError::OutOfRange {
                 what: "samples".into(),
                 expected: "an even number of real samples".into(),
                 given: self.samples as f64,
@@ -108,11 +108,11 @@ impl Waveform {
     /// Checks that samples are complex, for what has no other form.
     ///
     /// # Errors
-    /// [`CoreError::Incompatible`] for real samples.
-    pub fn check_complex(&self) -> Result<(), CoreError> {
+    /// [`InputError::Incompatible`] for real samples.
+    pub fn check_complex(&self) -> Result<(), InputError> {
         match self.sampling {
             Sampling::Complex => Ok(()),
-            Sampling::Real => Err(CoreError::Incompatible {
+            Sampling::Real => Err(InputError::Incompatible {
                 what: "sampling".into(),
                 expected: "complex".into(),
                 given: "real".into(),
@@ -120,24 +120,24 @@ impl Waveform {
         }
     }
 
-    fn check_binary_phase(&self) -> Result<(), CoreError> {
+    fn check_binary_phase(&self) -> Result<(), InputError> {
         if self.transmitters.is_power_of_two() {
             return Ok(());
         }
-        Err(CoreError::OutOfRange {
+        Err(InputError::OutOfRange {
             what: "transmitters".into(),
             expected: "a power of two in binary-phase multiplexing".into(),
             given: self.transmitters as f64,
         })
     }
 
-    fn check_doppler_division(&self) -> Result<(), CoreError> {
+    fn check_doppler_division(&self) -> Result<(), InputError> {
         let (fewest, bands) = (self.transmitters + 1, self.bands());
         check_range("doppler_bands", bands as f64, fewest as f64, 128.0)?;
         if self.loops.is_multiple_of(bands) {
             return Ok(());
         }
-        Err(CoreError::OutOfRange {
+        Err(InputError::OutOfRange {
             what: "loops".into(),
             expected: format!("a multiple of the {bands} Doppler bands"),
             given: self.loops as f64,

@@ -1,8 +1,8 @@
 //! Errors of fleets.
 
 use crate::schema::SCHEMA;
-use boresight_calibrate::CalibrateError;
-use boresight_core::{CoreError, Details, Diagnose};
+use boresight_core::{Details, Diagnose, InputError};
+use boresight_mounting::MountingError;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -13,10 +13,10 @@ use thiserror::Error;
 pub enum FleetError {
     /// An argument is wrong.
     #[error(transparent)]
-    Core(#[from] CoreError),
+    Core(#[from] InputError),
     /// The equations of drives do not go together.
     #[error(transparent)]
-    Calibrate(#[from] CalibrateError),
+    Calibrate(#[from] MountingError),
     /// A pattern is none, or a path does not follow it.
     #[error("{what} is {given}; expected {expected}")]
     Name {

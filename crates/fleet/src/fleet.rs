@@ -1,6 +1,6 @@
 //! What the records of a fleet come to.
 
-use boresight_core::describe::Described;
+use boresight_options::Described;
 use serde::Serialize;
 
 /// A fleet's drives, put together.
@@ -95,7 +95,7 @@ pub struct VehicleRadar {
     /// Where the angle comes from.
     pub source: AngleSource,
     /// Whether it is where it should be; none without a nominal angle.
-    pub alignment: Option<boresight_calibrate::Alignment>,
+    pub alignment: Option<boresight_mounting::Alignment>,
     /// Each drive's own angle.
     pub drives: Vec<DriveAngle>,
     /// When the angle changed at once.

@@ -8,20 +8,20 @@ use crate::outlying::{Outlying, VehicleAngle};
 use crate::pattern::natural_order;
 use crate::record::{RadarResult, Record};
 use crate::{parallel, vehicle};
-use boresight_calibrate::wrap;
-use boresight_core::describe::{self, Naming};
+use boresight_mounting::wrap;
+use boresight_options::{Naming, check};
 use std::collections::{BTreeMap, HashMap};
 
 /// What the records come to: the same whatever their order, over so many threads.
 ///
 /// # Errors
-/// Those of the options' check and of [`boresight_calibrate::merge_drives`].
+/// Those of the options' check and of [`boresight_mounting::merge_drives`].
 pub fn merge(
     gathered: Gathered,
     options: &FleetOptions,
     threads: usize,
 ) -> Result<Fleet, FleetError> {
-    describe::check(options, Naming::Rust)?;
+    check(options, Naming::Rust)?;
     let Gathered { records, counts, .. } = gathered;
     let failures = failures(&records);
     let mut by_vehicle: HashMap<String, Vec<Record<RadarResult>>> = HashMap::new();

@@ -1,8 +1,8 @@
 //! How the records of a fleet are put together.
 
 use crate::history::HistoryOptions;
-use boresight_calibrate::MergeOptions;
-use boresight_core::describe::Described;
+use boresight_mounting::MergeOptions;
+use boresight_options::Described;
 use serde::{Deserialize, Serialize};
 
 /// Options of what the records of a fleet come to.

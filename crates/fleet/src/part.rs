@@ -1,7 +1,7 @@
 //! One of several parts that work is split into.
 
-use boresight_core::CoreError;
-use boresight_core::error::check_range;
+use boresight_core::InputError;
+use boresight_math::error::check_range;
 use std::fmt::{Display, Formatter};
 use std::str::FromStr;
 
@@ -19,8 +19,8 @@ impl Part {
     /// Part `number`, from 1, of `of`.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] unless `number` is within 1 and `of`, and `of` at most a million.
-    pub fn new(number: u64, of: u64) -> Result<Self, CoreError> {
+    /// [`InputError::OutOfRange`] unless `number` is within 1 and `of`, and `of` at most a million.
+    pub fn new(number: u64, of: u64) -> Result<Self, InputError> {
         check_range("parts", of as f64, 1.0, 1e6)?;
         check_range("number of the part", number as f64, 1.0, of as f64)?;
         Ok(Self { number, of })
@@ -49,11 +49,11 @@ impl Display for Part {
 }
 
 impl FromStr for Part {
-    type Err = CoreError;
+    type Err = InputError;
 
     /// From `1/4`.
-    fn from_str(text: &str) -> Result<Self, CoreError> {
-        let malformed = || CoreError::Malformed {
+    fn from_str(text: &str) -> Result<Self, InputError> {
+        let malformed = || InputError::Malformed {
             what: "part".into(),
             expected: "K/N, such as 1/4".into(),
             given: text.into(),

@@ -2,7 +2,7 @@
 
 use crate::job::Job;
 use crate::schema;
-use boresight_calibrate::NormalEquations;
+use boresight_mounting::NormalEquations;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 

@@ -4,7 +4,7 @@ use crate::error::FleetError;
 use crate::job::Job;
 use crate::record::Record;
 use crate::worker::{Place, Workers};
-use boresight_core::error::check_range;
+use boresight_math::error::check_range;
 use std::ops::ControlFlow;
 use std::process::Command;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -40,7 +40,7 @@ impl RunCounts {
 ///
 /// # Errors
 /// The first of `jobs` or of `keep`; [`FleetError::Worker`] if no worker can be started; [`FleetError::Cancelled`] where `look`, which is asked
-/// every tenth of a second and after each record, breaks the run; [`boresight_core::CoreError::OutOfRange`] without threads.
+/// every tenth of a second and after each record, breaks the run; [`boresight_core::InputError::OutOfRange`] without threads.
 pub fn run(
     jobs: impl Iterator<Item = Result<Job, FleetError>> + Send,
     threads: usize,

@@ -6,10 +6,8 @@ use crate::history::{History, HistoryPoint};
 use crate::options::FleetOptions;
 use crate::pattern::natural_order;
 use crate::record::{Done, RadarRecord, RadarResult, Record};
-use boresight_calibrate::merge::{
-    CarUnknowns, DrivePart, MergedAngle, MergedVehicle, merge_drives,
-};
-use boresight_calibrate::{Alignment, CalibrationOptions, wrap};
+use boresight_mounting::merge::{CarUnknowns, DrivePart, MergedAngle, MergedVehicle, merge_drives};
+use boresight_mounting::{Alignment, CalibrationOptions, wrap};
 
 const DAY_S: f64 = 86_400.0;
 /// Standard deviations by which the joint estimate may differ from the angle that the history has now.
@@ -196,8 +194,8 @@ fn joint(
 }
 
 fn unknowns(told: &CarUnknowns) -> CarValues {
-    let value = |of: Option<boresight_calibrate::merge::Told>| of.map(|told| told.value);
-    let sigma = |of: Option<boresight_calibrate::merge::Told>| of.map(|told| told.sigma);
+    let value = |of: Option<boresight_mounting::merge::Told>| of.map(|told| told.value);
+    let sigma = |of: Option<boresight_mounting::merge::Told>| of.map(|told| told.sigma);
     CarValues {
         scale: value(told.scale),
         scale_sigma: sigma(told.scale),

@@ -5,12 +5,12 @@
 #[path = "support/fleet.rs"]
 mod made_up;
 
-use boresight_calibrate::Alignment;
 use boresight_core::Random;
 use boresight_fleet::FleetOptions;
 use boresight_fleet::fleet::{DriveAngle, FailureCount, Fleet, Vehicle, VehicleRadar};
 use boresight_fleet::report::attention::{Need, attention};
 use boresight_fleet::{report, text};
+use boresight_mounting::Alignment;
 use boresight_report::{About, Source};
 use made_up::{knock, large, radar, small, vehicle};
 
@@ -287,7 +287,7 @@ fn odd_shapes_have_pages() {
 #[test]
 fn angles_near_half_a_turn_are_drawn_together() {
     let mut back = radar(1, 20, 0.0, &mut Random::new(5, 0));
-    let turned = |rad: &mut f64| *rad = boresight_calibrate::wrap(*rad + 157.1_f64.to_radians());
+    let turned = |rad: &mut f64| *rad = boresight_mounting::wrap(*rad + 157.1_f64.to_radians());
     for drive in &mut back.drives {
         turned(&mut drive.angle_rad);
         turned(&mut drive.fitted_rad);

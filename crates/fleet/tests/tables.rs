@@ -2,12 +2,12 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use boresight_calibrate::Alignment;
 use boresight_fleet::Fleet;
 use boresight_fleet::fleet::{
     AngleSource, CarValues, Drift, Drive, DriveAngle, Knock, Vehicle, VehicleRadar,
 };
 use boresight_fleet::tables::{drive_columns, radar_columns, write_drives, write_radars};
+use boresight_mounting::Alignment;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use std::collections::BTreeMap;

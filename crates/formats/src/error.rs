@@ -1,6 +1,6 @@
 //! Errors of the readers and writers.
 
-use boresight_core::{CoreError, Details, Diagnose};
+use boresight_core::{Details, Diagnose, InputError};
 use thiserror::Error;
 
 /// Why a file cannot be read or written.
@@ -9,7 +9,7 @@ use thiserror::Error;
 pub enum FormatError {
     /// An argument is wrong in itself.
     #[error(transparent)]
-    Argument(#[from] CoreError),
+    Argument(#[from] InputError),
     /// A line of a radar configuration cannot be used.
     #[error("configuration line {line}: {command}: {what} is {given}; expected {expected}")]
     Config {

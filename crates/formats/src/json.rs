@@ -1,7 +1,7 @@
 //! Results as JSON, in the names and units that JavaScript has them in, and the way back.
 
-use boresight_core::describe::naming::{is_angle, javascript};
-use boresight_core::describe::{Described, Kind, Record};
+use boresight_options::naming::{is_angle, javascript};
+use boresight_options::{Described, Kind, Record};
 use serde::Serialize;
 use serde::de::{DeserializeOwned, Error};
 use serde_json::{Map, Value};

@@ -1,8 +1,8 @@
 //! What is generated, in the order in which it is listed.
 
-use boresight_core::describe::shaped::ComplexArray;
-use boresight_core::describe::{Described, Field, Kind, Record};
 use boresight_core::{Geometry, Waveform, WaveformSummary};
+use boresight_options::shaped::ComplexArray;
+use boresight_options::{Described, Field, Kind, Record};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -35,7 +35,7 @@ pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
             "Tables of measured steering vectors",
             boresight_array_calibration::SteeringTable::KIND,
         ),
-        entry::<boresight_calibrate::CalibrationOptions>("CalibrationOptions", "Mounting angles")?,
+        entry::<boresight_mounting::CalibrationOptions>("CalibrationOptions", "Mounting angles")?,
         entry::<boresight_fleet::FleetOptions>("FleetOptions", "Fleets of drives")?,
         entry::<boresight_simulate::DriveOptions>("SimulateDriveOptions", "Simulated drives")?,
         entry::<boresight_formats::ReadingOptions>("ReadingOptions", "Reading captures")?,
@@ -126,9 +126,9 @@ pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
             "Mounting angles",
             vec![
                 calibration_methods::CalibrationMethodInfo::KIND,
-                boresight_calibrate::FrameOutcome::KIND,
-                boresight_calibrate::AngleEstimate::KIND,
-                boresight_calibrate::Outlook::KIND,
+                boresight_mounting::FrameOutcome::KIND,
+                boresight_mounting::AngleEstimate::KIND,
+                boresight_mounting::Outlook::KIND,
                 trajectory::Trajectory::KIND,
             ],
         ),

@@ -2,7 +2,7 @@
 
 use crate::catalogue::{Entry, shown};
 use crate::values;
-use boresight_core::describe::{Kind, Record, naming};
+use boresight_options::{Kind, Record, naming};
 use serde_json::Value;
 use std::collections::BTreeSet;
 

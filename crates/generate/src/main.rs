@@ -8,7 +8,7 @@ mod typescript;
 mod values;
 
 #[cfg(test)]
-use boresight_core::describe::Kind;
+use boresight_options::Kind;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use thiserror::Error;

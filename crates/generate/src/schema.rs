@@ -2,7 +2,7 @@
 
 use crate::catalogue::{Entry, shown};
 use crate::values::{in_user_units, plain};
-use boresight_core::describe::{Field, Kind, Record, naming};
+use boresight_options::{Field, Kind, Record, naming};
 use serde_json::{Map, Value, json};
 
 /// One document that defines all options under `$defs`.

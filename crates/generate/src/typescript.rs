@@ -2,7 +2,7 @@
 
 use crate::catalogue::{Entry, Shown, shown};
 use crate::values;
-use boresight_core::describe::{Choice, Kind, NumberType, Record, naming};
+use boresight_options::{Choice, Kind, NumberType, Record, naming};
 use serde_json::Value;
 use std::collections::BTreeSet;
 

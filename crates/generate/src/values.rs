@@ -1,7 +1,7 @@
 //! Values as users see them.
 
-use boresight_core::describe::naming;
-use boresight_core::describe::{Field, Range};
+use boresight_options::naming;
+use boresight_options::{Field, Range};
 use serde_json::Value;
 
 /// A default in the units that users give: angles in degrees; nothing for none.

@@ -1,8 +1,8 @@
 //! Evenly spaced points.
 
 use crate::error::ImageError;
-use boresight_core::CoreError;
-use boresight_core::error::check_range;
+use boresight_core::InputError;
+use boresight_math::error::check_range;
 
 /// Most points of an axis.
 const MAX_POINTS: usize = 16_384;
@@ -19,7 +19,7 @@ impl Axis {
     /// `count` points from `first` to `last`, both included. `what` names it in errors.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for limits that are not finite or do not ascend, fewer than two
+    /// [`InputError::OutOfRange`] for limits that are not finite or do not ascend, fewer than two
     /// points or too many.
     pub fn new(what: &str, first: f64, last: f64, count: usize) -> Result<Self, ImageError> {
         check_range(what, first, -1e6, 1e6)?;
@@ -30,7 +30,7 @@ impl Axis {
             return Ok(Self { first, step, count });
         }
         let expected = format!("an end above the beginning, {first}");
-        Err(CoreError::OutOfRange { what: what.into(), expected, given: last }.into())
+        Err(InputError::OutOfRange { what: what.into(), expected, given: last }.into())
     }
 
     /// First point.

@@ -2,8 +2,8 @@
 
 use crate::splat::{Outside, RangeAzimuthMap};
 use crate::view::{BirdsEyeView, NO_RADAR};
-use boresight_core::describe::{Described, columns};
 use boresight_core::drive::Mounting;
+use boresight_options::{Described, columns};
 use ndarray::Array2;
 use serde::Serialize;
 

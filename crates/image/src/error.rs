@@ -1,6 +1,6 @@
 //! Errors of images.
 
-use boresight_core::{CoreError, Details, Diagnose};
+use boresight_core::{Details, Diagnose, InputError};
 use thiserror::Error;
 
 /// Why an image cannot be made.
@@ -9,7 +9,7 @@ use thiserror::Error;
 pub enum ImageError {
     /// An argument is wrong in itself.
     #[error(transparent)]
-    Argument(#[from] CoreError),
+    Argument(#[from] InputError),
 }
 
 impl Diagnose for ImageError {

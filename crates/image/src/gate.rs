@@ -4,7 +4,7 @@ use crate::axis::Axis;
 use crate::error::ImageError;
 use crate::view::{BirdsEyeView, Polar};
 use boresight_core::drive::Mounting;
-use boresight_core::error::{check_finite, check_range};
+use boresight_math::error::{check_finite, check_range};
 use ndarray::Array2;
 
 /// What counts as the target itself.

@@ -3,7 +3,7 @@
 use crate::error::ImageError;
 use crate::splat::Grid;
 use crate::view::ViewGrid;
-use boresight_core::describe::Described;
+use boresight_options::Described;
 use serde::{Deserialize, Serialize};
 
 /// Grid of a range-azimuth map.

@@ -5,7 +5,7 @@ use crate::gate::{self, Gate, PointGates};
 use crate::sidelobes::share;
 use crate::splat::Target;
 use boresight_core::drive::Mounting;
-use boresight_core::order::sort_descending;
+use boresight_math::order::sort_descending;
 use serde::{Deserialize, Serialize};
 
 /// Points that one radar found.

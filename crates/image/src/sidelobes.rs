@@ -3,8 +3,8 @@
 use crate::error::ImageError;
 use crate::gate::{self, Gate, Gates};
 use crate::view::{BirdsEyeView, NO_RADAR};
-use boresight_core::describe::{Described, decibels};
-use boresight_core::units::{db_to_power, power_to_db};
+use boresight_math::decibels::{db_to_power, power_to_db};
+use boresight_options::{Described, decibels};
 use serde::Serialize;
 
 /// Cells less than this below the strongest of the view count as lit, dB.

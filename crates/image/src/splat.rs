@@ -3,10 +3,10 @@
 
 use crate::axis::Axis;
 use crate::error::ImageError;
-use boresight_core::CoreError;
-use boresight_core::describe::Described;
-use boresight_core::error::{check_finite, check_range};
+use boresight_core::InputError;
 use boresight_core::limits::check_bytes;
+use boresight_math::error::{check_finite, check_range};
+use boresight_options::Described;
 use ndarray::{Array2, Array3, Axis as Dimension, s};
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
@@ -34,8 +34,8 @@ impl Grid {
     /// view of half width `field_of_view_rad`.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for a range below 0 or a field of view beyond 90 deg;
-    /// [`CoreError::TooLarge`] for too many cells.
+    /// [`InputError::OutOfRange`] for a range below 0 or a field of view beyond 90 deg;
+    /// [`InputError::TooLarge`] for too many cells.
     pub fn new(
         range_m: [f64; 2],
         ranges: usize,
@@ -118,7 +118,7 @@ impl SpectrumPlan {
     /// For spectra at ascending azimuths.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for fewer than two azimuths, or ones that do not ascend within
+    /// [`InputError::OutOfRange`] for fewer than two azimuths, or ones that do not ascend within
     /// -90 to 90 deg.
     pub fn new(azimuth_rad: &[f64], grid: &Grid) -> Result<Self, ImageError> {
         check_range("azimuths of the spectra", azimuth_rad.len() as f64, 2.0, 65_536.0)?;
@@ -128,7 +128,7 @@ impl SpectrumPlan {
         let sines: Vec<f64> = azimuth_rad.iter().map(|azimuth| azimuth.sin()).collect();
         let spacings: Vec<f64> = sines.windows(2).map(|pair| pair[1] - pair[0]).collect();
         if let Some(index) = spacings.iter().position(|&spacing| spacing <= 0.0) {
-            return Err(CoreError::OutOfRange {
+            return Err(InputError::OutOfRange {
                 what: format!("azimuth {} of the spectra (rad)", index + 1),
                 expected: "more than the one before".into(),
                 given: azimuth_rad[index + 1],
@@ -186,7 +186,7 @@ impl RangeAzimuthDoppler {
     /// An empty cube; without `rate_mps` one that is its own sum over Doppler.
     ///
     /// # Errors
-    /// [`CoreError::TooLarge`].
+    /// [`InputError::TooLarge`].
     pub fn new(grid: Grid, rate_mps: Option<Axis>) -> Result<Self, ImageError> {
         let shape = [grid.range_m.len(), rate_mps.map_or(1, |axis| axis.len()), grid.sine.len()];
         check_bytes("the range-azimuth-Doppler cube", &shape, CELL_BYTES)?;
@@ -241,13 +241,13 @@ impl RangeAzimuthDoppler {
         let points = plan.points.len();
         if power.is_empty() || !power.len().is_multiple_of(points) {
             let (what, expected) = ("a spectrum".into(), format!("[{points}] or a multiple"));
-            return Err(CoreError::Shape { what, expected, given: vec![power.len()] }.into());
+            return Err(InputError::Shape { what, expected, given: vec![power.len()] }.into());
         }
         let valid = |power: f32| (0.0..=f32::MAX).contains(&power);
         if let Some(index) = power.iter().position(|&power| !valid(power)) {
             let (what, given) = (format!("power {index} of a spectrum"), power[index].into());
             let expected = "a finite number from 0".into();
-            return Err(CoreError::OutOfRange { what, expected, given }.into());
+            return Err(InputError::OutOfRange { what, expected, given }.into());
         }
         check_range("level", level.unwrap_or(0.0), 0.0, MOST_POWER)?;
         let places = self.places(range_m, rate_mps)?;

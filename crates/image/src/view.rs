@@ -3,10 +3,10 @@
 use crate::axis::Axis;
 use crate::error::ImageError;
 use crate::splat::RangeAzimuthMap;
-use boresight_core::CoreError;
+use boresight_core::InputError;
 use boresight_core::drive::Mounting;
-use boresight_core::error::{check_finite, check_range};
 use boresight_core::limits::{check_bytes, check_operations};
+use boresight_math::error::{check_finite, check_range};
 use ndarray::Array2;
 
 /// Memory of a cell: its power and its radar.
@@ -37,7 +37,7 @@ impl ViewGrid {
     /// of them.
     ///
     /// # Errors
-    /// Edges that do not ascend, fewer than two cells a side; [`CoreError::TooLarge`].
+    /// Edges that do not ascend, fewer than two cells a side; [`InputError::TooLarge`].
     pub fn new(x_m: [f64; 2], y_m: [f64; 2], cell_m: f64) -> Result<Self, ImageError> {
         check_range("cell_m", cell_m, 1e-3, 1e3)?;
         let axis = |what, [from, to]: [f64; 2]| {
@@ -91,8 +91,8 @@ impl Polar {
 /// side), so that nothing falls between cells.
 ///
 /// # Errors
-/// [`CoreError::OutOfRange`] for no or more than 127 radars; [`CoreError::NotFinite`] for a
-/// mounting that is not finite; [`CoreError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
+/// [`InputError::OutOfRange`] for no or more than 127 radars; [`InputError::NotFinite`] for a
+/// mounting that is not finite; [`InputError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
 pub fn birds_eye_view(
     radars: &[(&RangeAzimuthMap, Mounting)],
     grid: ViewGrid,
@@ -139,12 +139,12 @@ fn samples_of_cell(radars: &[(&RangeAzimuthMap, Mounting)], grid: ViewGrid) -> f
         .sum()
 }
 
-fn check_shape(map: &RangeAzimuthMap) -> Result<(), CoreError> {
+fn check_shape(map: &RangeAzimuthMap) -> Result<(), InputError> {
     let expected = (map.grid.range_m.len(), map.grid.sine.len());
     if map.power.dim() == expected {
         return Ok(());
     }
-    Err(CoreError::Shape {
+    Err(InputError::Shape {
         what: "the map".into(),
         expected: format!("[{}, {}]", expected.0, expected.1),
         given: map.power.shape().to_vec(),

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use boresight_core::{CoreError, Diagnose, Random};
+use boresight_core::{Diagnose, InputError, Random};
 use boresight_image::{Axis, Grid, ImageError, RangeAzimuthDoppler, SpectrumPlan, Target};
 use proptest::prelude::*;
 
@@ -176,7 +176,7 @@ fn grids_that_are_none_are_refused() {
         assert_eq!(Grid::new(range_m, 4, view_rad, 8).unwrap_err().details().what, what);
     }
     let large = Grid::new([1.0, 5.0], 16_000, 1.0, 16_000);
-    assert!(matches!(large, Err(ImageError::Argument(CoreError::TooLarge { .. }))), "{large:?}");
+    assert!(matches!(large, Err(ImageError::Argument(InputError::TooLarge { .. }))), "{large:?}");
     for (azimuths, what) in [
         (&[0.1][..], "azimuths of the spectra"),
         (&[0.2, 0.1], "azimuth 1 of the spectra (rad)"),

@@ -1,8 +1,8 @@
 //! Errors of the sockets.
 
-use boresight_calibrate::CalibrateError;
-use boresight_core::{CoreError, Details, Diagnose};
+use boresight_core::{Details, Diagnose, InputError};
 use boresight_formats::FormatError;
+use boresight_mounting::MountingError;
 use thiserror::Error;
 
 /// Why a socket cannot be served.
@@ -11,10 +11,10 @@ use thiserror::Error;
 pub enum LiveError {
     /// An argument is wrong in itself.
     #[error(transparent)]
-    Argument(#[from] CoreError),
+    Argument(#[from] InputError),
     /// Calibration refused.
     #[error(transparent)]
-    Calibrate(#[from] CalibrateError),
+    Calibrate(#[from] MountingError),
     /// A file that is served or that says what is served cannot be used.
     #[error(transparent)]
     Format(#[from] FormatError),

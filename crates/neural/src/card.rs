@@ -2,7 +2,7 @@
 
 use crate::error::NeuralError;
 use boresight_aoa::Method;
-use boresight_core::describe::{self, Described, Special};
+use boresight_options::{Described, Special};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -117,7 +117,7 @@ impl Axis {
 }
 
 impl Described for Axis {
-    const KIND: describe::Kind = describe::Kind::Special(&Special {
+    const KIND: boresight_options::Kind = boresight_options::Kind::Special(&Special {
         expected: "a length or a name",
         typescript: "number | string",
         schema: r#"{ "type": ["integer", "string"] }"#,

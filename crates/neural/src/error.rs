@@ -1,7 +1,7 @@
 //! Errors of networks.
 
 use boresight_aoa::AoaError;
-use boresight_core::{CoreError, Details, Diagnose};
+use boresight_core::{Details, Diagnose, InputError};
 use thiserror::Error;
 
 /// Why a model cannot be loaded or run.
@@ -10,7 +10,7 @@ use thiserror::Error;
 pub enum NeuralError {
     /// An argument is wrong in itself.
     #[error(transparent)]
-    Argument(#[from] CoreError),
+    Argument(#[from] InputError),
     /// Array, options or data do not suit the method.
     #[error(transparent)]
     Angle(#[from] AoaError),

@@ -9,9 +9,9 @@ use crate::target_set::TargetSet;
 use boresight_aoa::{
     AoaError, Data, Estimate, Estimator, EstimatorOptions, Estimators, Method, Plan, SourceCount,
 };
-use boresight_core::describe::Named;
-use boresight_core::error::check_range;
 use boresight_core::{Array, Complex32};
+use boresight_math::error::check_range;
+use boresight_options::Named;
 use boresight_signal::region::{region_covariance, region_snapshots};
 use ndarray::ArrayView3;
 
@@ -33,7 +33,7 @@ impl Model {
     /// Estimators for batches over up to `threads` threads.
     ///
     /// # Errors
-    /// As [`Model::estimator`]; [`boresight_core::CoreError::OutOfRange`] for no threads, or more than 1024.
+    /// As [`Model::estimator`]; [`boresight_core::InputError::OutOfRange`] for no threads, or more than 1024.
     pub fn estimators(
         &self,
         array: &Array,

@@ -7,9 +7,9 @@ use crate::features::{ELEMENTS, covariance_features};
 use crate::onnx;
 use crate::ports::{check_digest, check_ports, checked_outputs, kinds_of, list};
 use boresight_aoa::{Data, SourceProbabilities};
-use boresight_core::describe::Named;
-use boresight_core::error::{check_finite, check_range};
-use boresight_core::{Array, CoreError};
+use boresight_core::{Array, InputError};
+use boresight_math::error::{check_finite, check_range};
+use boresight_options::Named;
 use ndarray::{ArrayD, ArrayViewD, Axis as NdAxis, Slice};
 use sha2::{Digest, Sha256};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -111,8 +111,8 @@ impl Model {
     /// Runs the network on inputs by name, any number of examples, and returns its outputs.
     ///
     /// # Errors
-    /// [`NeuralError::Mismatch`] for other names, [`CoreError::Shape`] for other shapes or inputs with different
-    /// numbers of examples, [`CoreError::NotFinite`] for NaN and infinities, [`NeuralError::NotFinite`] where an output
+    /// [`NeuralError::Mismatch`] for other names, [`InputError::Shape`] for other shapes or inputs with different
+    /// numbers of examples, [`InputError::NotFinite`] for NaN and infinities, [`NeuralError::NotFinite`] where an output
     /// is not finite.
     pub fn run(
         &self,
@@ -191,7 +191,7 @@ impl Model {
                     );
             let count = array.shape().first().copied();
             if !fits || (batched && *batch.get_or_insert(count) != count) {
-                return Err(NeuralError::Argument(CoreError::Shape {
+                return Err(NeuralError::Argument(InputError::Shape {
                     what: format!("input {:?}", port.name),
                     expected: port.to_string(),
                     given: array.shape().to_vec(),

@@ -10,8 +10,8 @@ use boresight_aoa::{
     SourceProbabilities,
 };
 use boresight_core::Array;
-use boresight_core::describe::Named;
-use boresight_core::error::check_range;
+use boresight_math::error::check_range;
+use boresight_options::Named;
 use std::sync::Arc;
 
 /// Half width of the sector of networks of regions, rad: 10 deg.
@@ -110,7 +110,7 @@ impl Model {
     /// As [`Model::counted_estimator`], for up to `threads` threads.
     ///
     /// # Errors
-    /// As [`Model::counted_estimator`]; [`boresight_core::CoreError::OutOfRange`] for no threads, or more than 1024.
+    /// As [`Model::counted_estimator`]; [`boresight_core::InputError::OutOfRange`] for no threads, or more than 1024.
     pub fn counted_estimators(
         &self,
         array: &Array,

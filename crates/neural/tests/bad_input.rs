@@ -5,7 +5,7 @@ mod support;
 
 use boresight_aoa::{AoaError, Data, EstimatorOptions};
 use boresight_core::presets::preset;
-use boresight_core::{Array, Complex64, CoreError, Diagnose, Random};
+use boresight_core::{Array, Complex64, Diagnose, InputError, Random};
 use boresight_neural::{Card, Kind, Model, NeuralError};
 use ndarray::{Array2, ArrayD};
 use support::{
@@ -220,7 +220,7 @@ fn nan_in_weights_and_in_outputs() {
         model.run(&[("covariance", input.view())])
     };
     assert!(matches!(run(-1.0), Err(NeuralError::NotFinite { .. })));
-    assert!(matches!(run(f32::NAN), Err(NeuralError::Argument(CoreError::NotFinite { .. }))));
+    assert!(matches!(run(f32::NAN), Err(NeuralError::Argument(InputError::NotFinite { .. }))));
     let good = run(1.0).unwrap();
     assert!((good[0].1[[1, 20]] - 56f32.ln()).abs() < 1e-5);
     // The estimator's error names the method, and the next estimate is right again.
@@ -272,7 +272,7 @@ fn inputs_of_a_run_and_arrays_are_checked() {
     };
     let refused = |inputs: &[(&str, &ArrayD<f32>)]| run(inputs).err().unwrap();
     let shape = refused(&[("snapshots", &bad), ("positions", &positions)]);
-    assert!(matches!(shape, NeuralError::Argument(CoreError::Shape { .. })));
+    assert!(matches!(shape, NeuralError::Argument(InputError::Shape { .. })));
     assert!(matches!(refused(&[("snapshots", &snapshots)]), NeuralError::Mismatch { .. }));
     let names = refused(&[("snapshots", &snapshots), ("place", &positions)]);
     let NeuralError::Mismatch { expected, given, .. } = names else { panic!("{names:?}") };

@@ -4,8 +4,9 @@
 mod support;
 
 use boresight_aoa::{Data, EstimatorOptions, SourceCount, Warning};
-use boresight_core::steering::{cis, steering_matrix};
+use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Complex32, Complex64, Diagnose, Direction, Random};
+use boresight_math::phasor::cis;
 use boresight_neural::{Kind, covariance_features};
 use boresight_signal::region::{region_covariance, region_snapshots};
 use ndarray::{Array2, Array3, array};

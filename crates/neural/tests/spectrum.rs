@@ -7,8 +7,9 @@ use boresight_aoa::{
     AoaError, Data, Estimate, Estimator, EstimatorOptions, SourceCount, SpectrumKind, Warning,
 };
 use boresight_core::presets::preset;
-use boresight_core::steering::{cis, steering_matrix};
+use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Complex64, Direction, Random};
+use boresight_math::phasor::cis;
 use boresight_neural::NeuralError;
 use boresight_signal::sample_covariance;
 use ndarray::{Array2, Array3, Axis};

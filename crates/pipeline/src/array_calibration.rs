@@ -10,9 +10,9 @@ use boresight_array_calibration::{
     CalibrationOptions, CalibrationResult, Cell, CellUse, calibrate, check, leave_one_out,
 };
 use boresight_core::Progress;
-use boresight_core::describe::{Naming, check as check_ranges};
-use boresight_core::order::sort_numbers;
-use boresight_core::{Array, CoreError, Remark, Waveform};
+use boresight_core::{Array, InputError, Remark, Waveform};
+use boresight_math::order::sort_numbers;
+use boresight_options::{Naming, check as check_ranges};
 use ndarray::Axis;
 use std::ops::{ControlFlow, Range};
 
@@ -125,7 +125,7 @@ fn near_reflectors(
             .iter()
             .filter(|cell| distance(cell) <= reach)
             .max_by(|a, b| a.snr.total_cmp(&b.snr))
-            .ok_or_else(|| CoreError::OutOfRange {
+            .ok_or_else(|| InputError::OutOfRange {
                 what: "range_m of a reflector".into(),
                 expected: format!("a detected target within {reach:.2} m"),
                 given: reflector.range_m,

@@ -5,7 +5,7 @@ use crate::error::PipelineError;
 use crate::result::{Detection, FrameCells, FrameResult};
 use crate::source::FrameSource;
 use boresight_core::Progress;
-use boresight_core::{Complex64, CoreError, Remark};
+use boresight_core::{Complex64, InputError, Remark};
 use ndarray::{Array2, Array3, Axis};
 use std::ops::{ControlFlow, Range};
 
@@ -51,7 +51,7 @@ impl Chain {
     /// both readings.
     ///
     /// # Errors
-    /// As [`Chain::each`]; [`CoreError::Empty`] without frames.
+    /// As [`Chain::each`]; [`InputError::Empty`] without frames.
     pub fn combine<S: FrameSource>(
         &mut self,
         source: &S,
@@ -107,7 +107,8 @@ impl Chain {
     ) -> Result<usize, S::Error> {
         let count = frames.len();
         if count == 0 {
-            let empty = CoreError::Empty { what: "frames".into(), expected: "at least one".into() };
+            let empty =
+                InputError::Empty { what: "frames".into(), expected: "at least one".into() };
             return Err(PipelineError::from(empty).into());
         }
         let total = 2 * count;
@@ -166,7 +167,7 @@ impl Chain {
     /// Snapshots (elements x frames) of one cell.
     ///
     /// # Errors
-    /// A bin outside the map; what the source gives; [`CoreError::OutOfRange`] for more frames
+    /// A bin outside the map; what the source gives; [`InputError::OutOfRange`] for more frames
     /// than are kept.
     pub fn cell_snapshots<S: FrameSource>(
         &mut self,
@@ -176,7 +177,7 @@ impl Chain {
         doppler_bin: usize,
     ) -> Result<Array2<Complex64>, S::Error> {
         let most = MAX_SNAPSHOTS as f64;
-        boresight_core::error::check_range("number of frames", frames.len() as f64, 1.0, most)
+        boresight_math::error::check_range("number of frames", frames.len() as f64, 1.0, most)
             .map_err(PipelineError::from)?;
         let mut raw = Array2::zeros((self.transform.channels(), frames.len()));
         for (n, index) in frames.enumerate() {

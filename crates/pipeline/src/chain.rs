@@ -10,9 +10,9 @@ use boresight_aoa::{
     AoaError, CountSources, Data, Estimate, Estimator, EstimatorOptions, Estimators, Method,
 };
 use boresight_core::correction::Correction;
-use boresight_core::describe::remark::Coded;
-use boresight_core::order::sort_descending;
 use boresight_core::{Array, Complex32, Complex64, Direction, Multiplexing, Remark, Waveform};
+use boresight_math::order::sort_descending;
+use boresight_options::remark::Coded;
 use boresight_signal::peaks::{Peak, group_peaks, interpolate};
 use boresight_signal::range::{range_doppler_coupling_m, range_of_bin_m};
 use boresight_signal::{

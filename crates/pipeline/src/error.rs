@@ -2,7 +2,7 @@
 
 use boresight_aoa::AoaError;
 use boresight_array_calibration::ArrayCalibrationError;
-use boresight_core::{CoreError, Details, Diagnose};
+use boresight_core::{Details, Diagnose, InputError};
 use boresight_image::ImageError;
 use boresight_signal::SignalError;
 use thiserror::Error;
@@ -13,7 +13,7 @@ use thiserror::Error;
 pub enum PipelineError {
     /// An argument is wrong in itself.
     #[error(transparent)]
-    Argument(#[from] CoreError),
+    Argument(#[from] InputError),
     /// A step of signal processing refused.
     #[error(transparent)]
     Signal(#[from] SignalError),

@@ -6,8 +6,8 @@ use crate::error::PipelineError;
 use crate::result::Counts;
 use crate::source::FrameSource;
 use boresight_core::Complex64;
-use boresight_core::describe::{Described, decibels};
-use boresight_core::units::power_to_db;
+use boresight_math::decibels::power_to_db;
+use boresight_options::{Described, decibels};
 use boresight_signal::peaks::{interpolate, peak_of};
 use boresight_signal::{CellThreshold, Detection};
 use ndarray::ArrayView3;
@@ -90,7 +90,7 @@ impl Chain {
         for (what, bin, bins) in
             [("range bin", range_bin, ranges), ("Doppler bin", doppler_bin, dopplers)]
         {
-            boresight_core::error::check_range(what, bin as f64, 0.0, bins as f64 - 1.0)
+            boresight_math::error::check_range(what, bin as f64, 0.0, bins as f64 - 1.0)
                 .map_err(PipelineError::from)?;
         }
         // The mean of one frame is its map.

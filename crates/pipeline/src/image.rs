@@ -7,11 +7,11 @@ use crate::result::{Detection, FrameCells};
 use boresight_aoa::{
     BatchEstimate, Estimator, EstimatorOptions, Method, Source, SpectrumKind, WarningCount,
 };
-use boresight_core::describe::Described;
-use boresight_core::{Array, CoreError, Waveform};
+use boresight_core::{Array, InputError, Waveform};
 use boresight_image::{
     Grid, GridOptions, RangeAzimuthDoppler, RangeAzimuthMap, SpectrumPlan, Target,
 };
+use boresight_options::Described;
 use boresight_signal::{CfarKind, CfarOptions};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_3;
@@ -104,7 +104,7 @@ pub fn map_grid(waveform: &Waveform) -> GridOptions {
 /// Estimates the angles in the cells of a frame and adds them up to a map.
 ///
 /// # Errors
-/// What the method says of the snapshots; [`CoreError::Incompatible`] for spectra of a method that has none.
+/// What the method says of the snapshots; [`InputError::Incompatible`] for spectra of a method that has none.
 pub fn frame_map(
     cells: &FrameCells,
     estimator: &mut Estimator,
@@ -171,7 +171,7 @@ fn spectrum_map(
     if cells.cells.is_empty() {
         return Ok(image.to_map());
     }
-    let spectra = estimates.spectra.as_ref().ok_or_else(|| CoreError::Incompatible {
+    let spectra = estimates.spectra.as_ref().ok_or_else(|| InputError::Incompatible {
         what: "spectrum".into(),
         expected: "targets for this method".into(),
         given: estimates.method.name().into(),

@@ -3,7 +3,7 @@
 use crate::error::PipelineError;
 use boresight_aoa::{EstimatorOptions, Method};
 use boresight_core::Waveform;
-use boresight_core::describe::{self, Described, Naming};
+use boresight_options::{Described, Naming, check};
 use boresight_signal::{CfarOptions, RangeDopplerOptions, Region};
 use serde::{Deserialize, Serialize};
 
@@ -70,10 +70,10 @@ impl ChainOptions {
     /// Checks the options that no single step checks.
     ///
     /// # Errors
-    /// [`boresight_core::CoreError::OutOfRange`] naming the option.
+    /// [`boresight_core::InputError::OutOfRange`] naming the option.
     pub fn check(&self) -> Result<(), PipelineError> {
         self.region.check()?;
         self.angle.options.check()?;
-        Ok(describe::check(self, Naming::Rust)?)
+        Ok(check(self, Naming::Rust)?)
     }
 }

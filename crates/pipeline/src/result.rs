@@ -1,8 +1,8 @@
 //! What the chain gives.
 
-use boresight_core::describe::shaped::ComplexArray;
-use boresight_core::describe::{Described, columns, decibels};
 use boresight_core::{Complex64, Remark};
+use boresight_options::shaped::ComplexArray;
+use boresight_options::{Described, columns, decibels};
 use ndarray::{Array2, Array3};
 use serde::{Serialize, Serializer};
 

@@ -1,8 +1,8 @@
 //! Where frames come from.
 
 use crate::error::PipelineError;
-use boresight_core::error::check_range;
-use boresight_core::{Complex32, CoreError};
+use boresight_core::{Complex32, InputError};
+use boresight_math::error::check_range;
 use ndarray::{Array4, ArrayView5, Axis};
 
 /// One frame of raw samples.
@@ -43,7 +43,7 @@ impl FrameSource for CubeFrames<'_> {
     fn frame(&self, index: usize) -> Result<Frame, PipelineError> {
         if self.frames() == 0 {
             let what = "frames".into();
-            return Err(CoreError::Empty { what, expected: "at least one".into() }.into());
+            return Err(InputError::Empty { what, expected: "at least one".into() }.into());
         }
         check_range("frame", index as f64, 0.0, (self.frames() - 1) as f64)?;
         Ok(Frame { samples: self.0.index_axis(Axis(0), index).to_owned(), clipped: 0 })

@@ -1,6 +1,6 @@
 //! The facts of an estimate in words.
 
-use boresight_calibrate::{Alignment, AngleEstimate, CHANCE, CalibrationOptions};
+use boresight_mounting::{Alignment, AngleEstimate, CHANCE, CalibrationOptions};
 
 /// One fact.
 #[derive(Debug, Clone, PartialEq, Eq)]

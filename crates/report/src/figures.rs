@@ -2,7 +2,7 @@
 
 use crate::chart::{Chart, Mark};
 use crate::recorder::Recorder;
-use boresight_calibrate::{AngleEstimate, CalibrationOptions};
+use boresight_mounting::{AngleEstimate, CalibrationOptions};
 
 /// The angle against time with its standard deviation, the nominal angle and the limits of the alarm.
 pub(crate) fn angle(

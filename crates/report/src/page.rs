@@ -5,7 +5,7 @@ use crate::facts::{Fact, sentence};
 use crate::html::{document, origin, table};
 use crate::recorder::Recorder;
 use crate::{facts, figures};
-use boresight_calibrate::{Alignment, AngleEstimate, CalibrationOptions, Outlook};
+use boresight_mounting::{Alignment, AngleEstimate, CalibrationOptions, Outlook};
 use std::fmt::Write as _;
 
 /// Where a report comes from.

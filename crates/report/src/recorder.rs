@@ -1,6 +1,6 @@
 //! What a report needs to know of a drive, gathered frame by frame in constant memory.
 
-use boresight_calibrate::{AngleEstimate, FrameInput, FrameOutcome};
+use boresight_mounting::{AngleEstimate, FrameInput, FrameOutcome};
 
 /// Most points of a line; beyond, every second is dropped and they come half as often.
 const MOST_POINTS: usize = 800;

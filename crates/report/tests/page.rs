@@ -2,8 +2,8 @@
 
 #![allow(clippy::unwrap_used)]
 
-use boresight_calibrate::{CalibrationOptions, Calibrator, FrameInput, Method};
 use boresight_core::{Detection, Random};
+use boresight_mounting::{CalibrationOptions, Calibrator, FrameInput, Method};
 use boresight_report::{About, Radar, Recorder, Source, facts, page, sentence};
 
 const YAW: f64 = 0.4;

@@ -53,7 +53,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use boresight_core::Multiplexing;
-    use boresight_core::steering::cis;
+    use boresight_math::phasor::cis;
 
     #[test]
     fn transmitters_come_back_from_what_moves() {

@@ -1,8 +1,8 @@
 //! Spatial covariance: sample average, forward-backward averaging, spatial smoothing, loading.
 
 use crate::error::SignalError;
-use boresight_core::error::check_range;
-use boresight_core::{Complex64, CoreError};
+use boresight_core::{Complex64, InputError};
+use boresight_math::error::check_range;
 use ndarray::{Array2, ArrayView2, s};
 use wide::f64x2;
 
@@ -104,7 +104,7 @@ pub fn forward_backward(covariance: ArrayView2<Complex64>) -> Array2<Complex64> 
 /// forward-backward smoothing, which needs half the subarrays (Pillai and Kwon 1989).
 ///
 /// # Errors
-/// [`CoreError::Shape`] if the covariance is not square, [`CoreError::OutOfRange`] if `length` is
+/// [`InputError::Shape`] if the covariance is not square, [`InputError::OutOfRange`] if `length` is
 /// not within 1 and the number of elements.
 pub fn spatial_smoothing(
     covariance: ArrayView2<Complex64>,
@@ -112,7 +112,7 @@ pub fn spatial_smoothing(
 ) -> Result<Array2<Complex64>, SignalError> {
     let elements = covariance.nrows();
     if covariance.ncols() != elements {
-        return Err(SignalError::Argument(CoreError::Shape {
+        return Err(SignalError::Argument(InputError::Shape {
             what: "covariance".into(),
             expected: "a square matrix".into(),
             given: covariance.shape().to_vec(),
@@ -140,8 +140,8 @@ pub fn load_diagonal(covariance: &mut Array2<Complex64>, share: f64) {
 mod tests {
     use super::*;
     use boresight_core::direction::Direction;
-    use boresight_core::linalg::{adjoint, hermitian_eigen};
     use boresight_core::{Array, Random, steering};
+    use boresight_math::linalg::{adjoint, hermitian_eigen};
 
     fn noise(elements: usize, snapshots: usize) -> Array2<Complex64> {
         let mut random = Random::new(11, 0);
@@ -198,11 +198,11 @@ mod tests {
         assert!((smoothed[[0, 2]] - by_hand).norm() < 1e-15);
         for length in [0, 6] {
             let error = spatial_smoothing(r.view(), length).unwrap_err();
-            assert!(matches!(error, SignalError::Argument(CoreError::OutOfRange { .. })));
+            assert!(matches!(error, SignalError::Argument(InputError::OutOfRange { .. })));
         }
         let flat = Array2::zeros((2, 3));
         let error = spatial_smoothing(flat.view(), 1).unwrap_err();
-        assert!(matches!(error, SignalError::Argument(CoreError::Shape { .. })), "{error}");
+        assert!(matches!(error, SignalError::Argument(InputError::Shape { .. })), "{error}");
     }
 
     #[test]

@@ -86,7 +86,7 @@ pub fn is_ghost(
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use boresight_core::steering::cis;
+    use boresight_math::phasor::cis;
     use ndarray::Array4;
     use std::f64::consts::TAU;
 

@@ -1,6 +1,6 @@
 //! Errors of signal processing.
 
-use boresight_core::{CoreError, Details, Diagnose};
+use boresight_core::{Details, Diagnose, InputError};
 use thiserror::Error;
 
 /// Why a processing step cannot be set up or cannot take the data.
@@ -9,7 +9,7 @@ use thiserror::Error;
 pub enum SignalError {
     /// An argument is wrong in itself.
     #[error(transparent)]
-    Argument(#[from] CoreError),
+    Argument(#[from] InputError),
     /// Guard and training cells around the cell under test do not fit the map.
     #[error("a CFAR window of {given} cells along {axis} does not fit a map of {cells}")]
     Window {

@@ -3,10 +3,10 @@
 use crate::cfar::BinNoise;
 use crate::error::SignalError;
 use crate::window::{Window, noise_bandwidth_bins};
-use boresight_core::error::check_range;
-use boresight_core::fft::Transforms;
 use boresight_core::units::SPEED_OF_LIGHT_MPS;
 use boresight_core::{Complex32, Waveform};
+use boresight_math::error::check_range;
+use boresight_math::fft::Transforms;
 use rustfft::Fft;
 use std::sync::Arc;
 

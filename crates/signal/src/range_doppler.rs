@@ -8,10 +8,10 @@ use crate::power::accumulate_power;
 use crate::range::{RowTransform, range_axis_m};
 use crate::real_range::RealRangeTransform;
 use crate::window::Window;
-use boresight_core::describe::Described;
-use boresight_core::error::check_range;
 use boresight_core::limits::check_bytes;
-use boresight_core::{Complex32, Complex64, CoreError, Sampling, Waveform};
+use boresight_core::{Complex32, Complex64, InputError, Sampling, Waveform};
+use boresight_math::error::check_range;
+use boresight_options::Described;
 use ndarray::{Array1, Array2, Array3, ArrayView2, ArrayView4, Axis};
 use serde::{Deserialize, Serialize};
 
@@ -56,7 +56,7 @@ impl RangeDopplerMap {
     /// The channels of one cell, in `f64` for angle estimation.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for a cell outside the map.
+    /// [`InputError::OutOfRange`] for a cell outside the map.
     pub fn snapshot(
         &self,
         range_bin: usize,
@@ -67,7 +67,7 @@ impl RangeDopplerMap {
             [("range bin", range_bin, ranges), ("Doppler bin", doppler_bin, dopplers)]
         {
             if bin >= bins {
-                return Err(SignalError::Argument(CoreError::OutOfRange {
+                return Err(SignalError::Argument(InputError::OutOfRange {
                     what: what.into(),
                     expected: format!("less than {bins}"),
                     given: bin as f64,
@@ -164,8 +164,8 @@ impl RangeDoppler {
     /// `waveform.samples`.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for a waveform, a window or a padding out of range,
-    /// [`CoreError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
+    /// [`InputError::OutOfRange`] for a waveform, a window or a padding out of range,
+    /// [`InputError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
     pub fn new(
         waveform: &Waveform,
         receivers: usize,
@@ -255,8 +255,8 @@ impl RangeDoppler {
     /// Transforms a frame of loops x chirps of a loop x receivers x samples.
     ///
     /// # Errors
-    /// [`CoreError::Shape`] if the frame or the output has another shape than planned;
-    /// [`CoreError::OutOfRange`] for real samples with an imaginary part.
+    /// [`InputError::Shape`] if the frame or the output has another shape than planned;
+    /// [`InputError::OutOfRange`] for real samples with an imaginary part.
     pub fn process(
         &mut self,
         frame: ArrayView4<Complex32>,
@@ -337,7 +337,7 @@ impl RangeDoppler {
     /// window and padding count double, so that a target keeps the power of one raw sample.
     ///
     /// # Errors
-    /// [`CoreError::Shape`] if the map has another shape than planned.
+    /// [`InputError::Shape`] if the map has another shape than planned.
     pub fn range_profile(&self, map: &RangeDopplerMap) -> Result<Vec<f64>, SignalError> {
         let (ranges, dopplers) = (self.range.bins(), self.doppler.bins());
         check_shape("power map", map.power.shape(), &[ranges, dopplers])?;
@@ -394,7 +394,7 @@ fn check_shape(what: &str, given: &[usize], expected: &[usize]) -> Result<(), Si
     if given == expected {
         return Ok(());
     }
-    Err(SignalError::Argument(CoreError::Shape {
+    Err(SignalError::Argument(InputError::Shape {
         what: what.into(),
         expected: format!("{expected:?}"),
         given: given.to_vec(),
@@ -402,7 +402,7 @@ fn check_shape(what: &str, given: &[usize], expected: &[usize]) -> Result<(), Si
 }
 
 fn not_contiguous(what: &str) -> SignalError {
-    SignalError::Argument(CoreError::Shape {
+    SignalError::Argument(InputError::Shape {
         what: what.into(),
         expected: "values in C order without gaps".into(),
         given: vec![],

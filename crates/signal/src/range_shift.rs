@@ -2,11 +2,11 @@
 //! examples of a few ranges more out of recordings of one.
 
 use crate::error::SignalError;
-use boresight_core::describe::Described;
-use boresight_core::error::check_range;
-use boresight_core::steering::cis;
 use boresight_core::units::SPEED_OF_LIGHT_MPS;
-use boresight_core::{Complex32, CoreError, Random, Waveform};
+use boresight_core::{Complex32, InputError, Random, Waveform};
+use boresight_math::error::check_range;
+use boresight_math::phasor::cis;
+use boresight_options::Described;
 use ndarray::{ArrayViewMut4, Axis};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -19,7 +19,7 @@ use std::f64::consts::TAU;
 /// plainer wavefront, and so does noise. What leaves `0..max_range_m` comes back at the other end.
 ///
 /// # Errors
-/// [`CoreError::Incompatible`] for real samples, which a phase cannot be put on; [`CoreError::OutOfRange`] for a shift beyond the largest range either way, [`CoreError::Shape`] for chirps of another length than
+/// [`InputError::Incompatible`] for real samples, which a phase cannot be put on; [`InputError::OutOfRange`] for a shift beyond the largest range either way, [`InputError::Shape`] for chirps of another length than
 /// the waveform's; what is wrong with the waveform.
 pub fn shift_range(
     mut frame: ArrayViewMut4<'_, Complex32>,
@@ -32,7 +32,7 @@ pub fn shift_range(
     check_range("shift_m", shift_m, -most, most)?;
     let samples = frame.len_of(Axis(3));
     if samples != waveform.samples {
-        return Err(SignalError::Argument(CoreError::Shape {
+        return Err(SignalError::Argument(InputError::Shape {
             what: "frame".into(),
             expected: format!("{} samples a chirp, as the waveform has", waveform.samples),
             given: frame.shape().to_vec(),
@@ -82,8 +82,8 @@ impl RangeAugmentation {
     /// Which of `frames` recorded frames each new one is made from, and its shift.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for a count or limits out of range, a least shift above the greatest;
-    /// [`CoreError::Empty`] without frames.
+    /// [`InputError::OutOfRange`] for a count or limits out of range, a least shift above the greatest;
+    /// [`InputError::Empty`] without frames.
     pub fn draw(
         &self,
         frames: usize,
@@ -94,7 +94,7 @@ impl RangeAugmentation {
         check_range("shift_m", greatest, least, 1e6)?;
         if frames == 0 {
             let expected = "at least one".into();
-            return Err(CoreError::Empty { what: "frames".into(), expected }.into());
+            return Err(InputError::Empty { what: "frames".into(), expected }.into());
         }
         Ok((0..count).map(move |index| ShiftedFrame {
             frame: index % frames,
@@ -174,12 +174,12 @@ mod tests {
         let waveform = waveform();
         let mut frame = echo(&waveform, 5.0);
         let far = shift_range(frame.view_mut(), &waveform, 1.01 * waveform.max_range_m());
-        assert!(matches!(far, Err(SignalError::Argument(CoreError::OutOfRange { .. }))));
+        assert!(matches!(far, Err(SignalError::Argument(InputError::OutOfRange { .. }))));
         let nowhere = shift_range(frame.view_mut(), &waveform, f64::NAN);
-        assert!(matches!(nowhere, Err(SignalError::Argument(CoreError::OutOfRange { .. }))));
+        assert!(matches!(nowhere, Err(SignalError::Argument(InputError::OutOfRange { .. }))));
         let other = Waveform { samples: 32, ..waveform };
         let short = shift_range(frame.view_mut(), &other, 0.1);
-        assert!(matches!(short, Err(SignalError::Argument(CoreError::Shape { .. }))));
+        assert!(matches!(short, Err(SignalError::Argument(InputError::Shape { .. }))));
     }
 
     #[test]

@@ -4,9 +4,9 @@ use crate::cfar::BinNoise;
 use crate::error::SignalError;
 use crate::range::MAX_PADDING;
 use crate::window::{Window, noise_bandwidth_bins};
-use boresight_core::error::check_range;
-use boresight_core::fft::RealFft;
-use boresight_core::{Complex32, CoreError};
+use boresight_core::{Complex32, InputError};
+use boresight_math::error::check_range;
+use boresight_math::fft::RealFft;
 use ndarray::ArrayView1;
 use std::f64::consts::SQRT_2;
 
@@ -49,7 +49,7 @@ impl RealRangeTransform {
     /// Transforms a chirp into a row of [`RealRangeTransform::bins`] values.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for a sample with an imaginary part.
+    /// [`InputError::OutOfRange`] for a sample with an imaginary part.
     pub fn transform(
         &mut self,
         chirp: ArrayView1<Complex32>,
@@ -57,7 +57,7 @@ impl RealRangeTransform {
     ) -> Result<(), SignalError> {
         for ((value, sample), &weight) in self.values.iter_mut().zip(chirp).zip(&self.weights) {
             if sample.im != 0.0 {
-                return Err(SignalError::Argument(CoreError::OutOfRange {
+                return Err(SignalError::Argument(InputError::OutOfRange {
                     what: "imaginary part of a sample".into(),
                     expected: "0, since the waveform's sampling is real".into(),
                     given: sample.im.into(),

@@ -3,10 +3,10 @@
 use crate::error::SignalError;
 use crate::range::RowTransform;
 use crate::window::Window;
-use boresight_core::describe::Described;
-use boresight_core::error::check_range;
-use boresight_core::order::descending;
-use boresight_core::{Complex32, Complex64, CoreError, Direction};
+use boresight_core::{Complex32, Complex64, Direction, InputError};
+use boresight_math::error::check_range;
+use boresight_math::order::descending;
+use boresight_options::Described;
 use ndarray::{Array2, Array3, Array4, ArrayView2, ArrayView3, ArrayView4};
 use serde::{Deserialize, Serialize};
 
@@ -33,7 +33,7 @@ impl Region {
     /// are fine.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] naming the limit.
+    /// [`InputError::OutOfRange`] naming the limit.
     pub fn check(&self) -> Result<(), SignalError> {
         for (what, limits) in [
             ("range_m", self.range_m),
@@ -45,7 +45,7 @@ impl Region {
             if let Some([least, greatest]) = limits
                 && (least.is_nan() || greatest.is_nan() || least > greatest)
             {
-                return Err(SignalError::Argument(CoreError::OutOfRange {
+                return Err(SignalError::Argument(InputError::OutOfRange {
                     what: format!("region.{what}"),
                     expected: format!("a greatest value of at least {least}"),
                     given: greatest,
@@ -101,7 +101,7 @@ fn within(value: f64, limits: Option<[f64; 2]>) -> bool {
 /// range bins, with the scale of [`crate::RangeDoppler`], before any Doppler transform.
 ///
 /// # Errors
-/// [`CoreError::Empty`] for a frame without values, [`CoreError::OutOfRange`] for a window out of
+/// [`InputError::Empty`] for a frame without values, [`InputError::OutOfRange`] for a window out of
 /// range.
 pub fn range_spectrum(
     frame: ArrayView4<Complex32>,
@@ -109,7 +109,7 @@ pub fn range_spectrum(
 ) -> Result<Array3<Complex32>, SignalError> {
     let (loops, tx, rx, samples) = frame.dim();
     if frame.is_empty() {
-        return Err(SignalError::Argument(CoreError::Empty {
+        return Err(SignalError::Argument(InputError::Empty {
             what: "frame".into(),
             expected: "loops x transmitters x receivers x samples".into(),
         }));
@@ -121,7 +121,7 @@ pub fn range_spectrum(
     }
     transform.transform(&mut rows);
     Array3::from_shape_vec((loops, tx * rx, samples), rows).map_err(|_| {
-        SignalError::Argument(CoreError::Shape {
+        SignalError::Argument(InputError::Shape {
             what: "frame".into(),
             expected: "loops x transmitters x receivers x samples".into(),
             given: vec![loops, tx, rx, samples],
@@ -152,7 +152,7 @@ pub fn strongest_range(spectrum: ArrayView3<Complex32>) -> usize {
 /// as the transform's do.
 ///
 /// # Errors
-/// [`CoreError::OutOfRange`] where the spectrum has fewer range bins or loops, or `centre` lies
+/// [`InputError::OutOfRange`] where the spectrum has fewer range bins or loops, or `centre` lies
 /// outside it.
 pub fn crop_region(
     spectrum: ArrayView3<Complex32>,

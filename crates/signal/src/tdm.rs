@@ -2,9 +2,9 @@
 //! target turns by its Doppler phase, which would otherwise pass for an angle.
 
 use crate::error::SignalError;
-use boresight_core::error::check_range;
-use boresight_core::steering::cis;
-use boresight_core::{Complex64, CoreError};
+use boresight_core::{Complex64, InputError};
+use boresight_math::error::check_range;
+use boresight_math::phasor::cis;
 use std::f64::consts::TAU;
 
 /// Doppler phase of a cell from one transmitter to the next, rad: `2 pi f_d T_chirp`, with the
@@ -24,8 +24,8 @@ pub fn phase_step_rad(doppler_bin: f64, dopplers: usize, transmitters: usize, fo
 /// transmitter `t` are multiplied by `exp(-j t phase_step_rad)`.
 ///
 /// # Errors
-/// [`CoreError::Shape`] if there are not equally many channels a transmitter,
-/// [`CoreError::OutOfRange`] for a phase that is not finite.
+/// [`InputError::Shape`] if there are not equally many channels a transmitter,
+/// [`InputError::OutOfRange`] for a phase that is not finite.
 pub fn compensate(
     snapshot: &mut [Complex64],
     transmitters: usize,
@@ -33,7 +33,7 @@ pub fn compensate(
 ) -> Result<(), SignalError> {
     check_range("phase_step_rad", phase_step_rad, -1e9, 1e9)?;
     if transmitters == 0 || !snapshot.len().is_multiple_of(transmitters) {
-        return Err(SignalError::Argument(CoreError::Shape {
+        return Err(SignalError::Argument(InputError::Shape {
             what: "snapshot".into(),
             expected: format!("a multiple of {transmitters} transmitters"),
             given: vec![snapshot.len()],
@@ -75,7 +75,7 @@ mod tests {
         for transmitters in [0, 2] {
             assert!(matches!(
                 compensate(&mut cell, transmitters, 0.1),
-                Err(SignalError::Argument(CoreError::Shape { .. }))
+                Err(SignalError::Argument(InputError::Shape { .. }))
             ));
         }
         let refused = compensate(&mut cell, 5, f64::NAN).unwrap_err();

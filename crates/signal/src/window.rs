@@ -1,10 +1,10 @@
 //! Windows for the range and Doppler transforms.
 
 use crate::error::SignalError;
-use boresight_core::describe::{Choice, Described, Kind, doc};
-use boresight_core::error::check_range;
-use boresight_core::fft::Transforms;
-use boresight_core::{Complex64, CoreError};
+use boresight_core::{Complex64, InputError};
+use boresight_math::error::check_range;
+use boresight_math::fft::Transforms;
+use boresight_options::{Choice, Described, Kind, doc};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::f64::consts::PI;
@@ -80,7 +80,7 @@ impl Window {
     /// The window of a name; Chebyshev with sidelobes at -80 dB, Taylor with `nbar` 4 and -40 dB.
     ///
     /// # Errors
-    /// [`CoreError::Unknown`] for any other name.
+    /// [`InputError::Unknown`] for any other name.
     pub fn named(name: &str) -> Result<Self, SignalError> {
         Ok(match name {
             "rectangular" => Self::Rectangular,
@@ -91,7 +91,7 @@ impl Window {
             "chebyshev" => Self::Chebyshev { sidelobe_db: 80.0 },
             "taylor" => Self::Taylor { nbar: 4, sidelobe_db: 40.0 },
             _ => {
-                return Err(SignalError::Argument(CoreError::Unknown {
+                return Err(SignalError::Argument(InputError::Unknown {
                     what: "window".into(),
                     expected: Self::NAMES.join(", "),
                     given: name.into(),
@@ -116,7 +116,7 @@ impl Window {
     /// Its values; all ones for fewer than 3 samples of a raised cosine, whose ends are zeros.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for a length of 0 or above [`MAX_LENGTH`], a sidelobe level or
+    /// [`InputError::OutOfRange`] for a length of 0 or above [`MAX_LENGTH`], a sidelobe level or
     /// `nbar` outside its range.
     pub fn coefficients(self, length: usize) -> Result<Vec<f64>, SignalError> {
         check_range("window length", length as f64, 1.0, MAX_LENGTH as f64)?;

@@ -2,8 +2,8 @@
 
 #![allow(clippy::unwrap_used)]
 
-use boresight_core::describe::Named;
 use boresight_core::{Complex32, Complex64, Diagnose, Multiplexing, Sampling, Waveform};
+use boresight_options::Named;
 use boresight_signal::region::{crop_region, range_spectrum, region_covariance};
 use boresight_signal::{
     BinNoise, Cfar, CfarAxes, CfarKind, CfarOptions, RangeDoppler, RangeDopplerOptions, Window,

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use boresight_core::{
-    Complex32, Complex64, CoreError, Diagnose, Multiplexing, Random, Sampling, Waveform,
+    Complex32, Complex64, Diagnose, InputError, Multiplexing, Random, Sampling, Waveform,
 };
 use boresight_signal::{
     RangeDoppler, RangeDopplerOptions, SignalError, Window, power_map, remove_static_clutter,
@@ -191,18 +191,18 @@ fn wrong_shapes_and_sizes_are_named() {
     let mut map = plan.output();
     for shape in [(4, 1, 2, 7), (0, 1, 2, 8), (4, 2, 2, 8)] {
         let error = plan.process(Array4::zeros(shape).view(), &mut map).unwrap_err();
-        assert!(matches!(error, SignalError::Argument(CoreError::Shape { .. })));
+        assert!(matches!(error, SignalError::Argument(InputError::Shape { .. })));
     }
     let mut other = RangeDoppler::new(&good, 1, &options).unwrap().output();
     let refused = plan.process(Array4::zeros((4, 1, 2, 8)).view(), &mut other).unwrap_err();
-    assert!(matches!(refused, SignalError::Argument(CoreError::Shape { .. })), "{refused}");
+    assert!(matches!(refused, SignalError::Argument(InputError::Shape { .. })), "{refused}");
     assert!(plan.process(Array4::zeros((4, 1, 2, 8)).view(), &mut map).is_ok());
 
     let huge = Waveform { loops: 40_000, frame_interval_s: 3.0, ..waveform(65_536, 1, 4) };
     let huge = Waveform { sample_rate_hz: 5e9, ..huge };
     let error = RangeDoppler::new(&huge, 64, &options).err();
     assert!(
-        matches!(error, Some(SignalError::Argument(CoreError::TooLarge { given, .. })) if given > 1e9),
+        matches!(error, Some(SignalError::Argument(InputError::TooLarge { given, .. })) if given > 1e9),
         "{error:?}"
     );
     let padded = RangeDopplerOptions { range_padding: 0, ..options };

@@ -18,15 +18,16 @@ use crate::interference::{Interferer, Received};
 use crate::paths::{Paths, moved};
 use crate::phase_noise::PhaseNoise;
 use boresight_core::array::{Channel, MAX_ELEMENTS, Position};
-use boresight_core::describe::shaped::interleaved;
-use boresight_core::describe::{Described, columns};
-use boresight_core::error::check_range;
 use boresight_core::limits::{check_bytes, check_operations};
-use boresight_core::steering::cis;
-use boresight_core::units::{SPEED_OF_LIGHT_MPS, db_to_amplitude, db_to_power};
+use boresight_core::units::SPEED_OF_LIGHT_MPS;
 use boresight_core::{
-    Array, Complex32, Complex64, CoreError, Direction, Imperfections, Random, Sampling, Waveform,
+    Array, Complex32, Complex64, Direction, Imperfections, InputError, Random, Sampling, Waveform,
 };
+use boresight_math::decibels::{db_to_amplitude, db_to_power};
+use boresight_math::error::check_range;
+use boresight_math::phasor::cis;
+use boresight_options::shaped::interleaved;
+use boresight_options::{Described, columns};
 use ndarray::{Array1, Array5};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
@@ -142,10 +143,10 @@ pub struct CubeOptions {
 /// the same power whether it sends alone or not.
 ///
 /// # Errors
-/// [`CoreError::OutOfRange`] for a number out of range, among them a target that is, at any time,
-/// not between the radar and the waveform's unambiguous range; [`CoreError::Shape`] if waveform
+/// [`InputError::OutOfRange`] for a number out of range, among them a target that is, at any time,
+/// not between the radar and the waveform's unambiguous range; [`InputError::Shape`] if waveform
 /// and array have different numbers of transmitters or the imperfections another number of
-/// elements; [`CoreError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
+/// elements; [`InputError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
 pub fn simulate_cube(
     waveform: &Waveform,
     array: &Array,
@@ -226,10 +227,10 @@ fn check(
     array: &Array,
     targets: &[CubeTarget],
     options: &CubeOptions,
-) -> Result<(), CoreError> {
+) -> Result<(), InputError> {
     waveform.check()?;
     if waveform.transmitters != array.tx().len() {
-        return Err(CoreError::Shape {
+        return Err(InputError::Shape {
             what: "transmitters of the array".into(),
             expected: format!("[{}], as in the waveform", waveform.transmitters),
             given: vec![array.tx().len()],
@@ -250,7 +251,7 @@ fn check(
         check_range("radar_height_m", ground.radar_height_m, 0.01, 100.0)?;
         check_range("reflection", ground.reflection, 0.0, 1.0)?;
         if options.field == Field::Near {
-            return Err(CoreError::Incompatible {
+            return Err(InputError::Incompatible {
                 what: "ground".into(),
                 expected: "plane waves".into(),
                 given: "with a near field".into(),

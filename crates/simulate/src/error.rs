@@ -1,6 +1,6 @@
 //! Errors of simulation.
 
-use boresight_core::{CoreError, Details, Diagnose};
+use boresight_core::{Details, Diagnose, InputError};
 use thiserror::Error;
 
 /// Why something cannot be simulated.
@@ -9,7 +9,7 @@ use thiserror::Error;
 pub enum SimulateError {
     /// An argument is wrong in itself.
     #[error(transparent)]
-    Argument(#[from] CoreError),
+    Argument(#[from] InputError),
     /// The caller stopped the simulation.
     #[error("stopped after {done} of {total} scans")]
     Cancelled {

@@ -1,7 +1,7 @@
 //! Fluctuation of a target's reflection (Swerling 1954).
 
 use boresight_core::Random;
-use boresight_core::describe::Described;
+use boresight_options::Described;
 use serde::{Deserialize, Serialize};
 
 /// How the power of each reflection fluctuates about its mean. Phases stay as they are.

@@ -2,7 +2,7 @@
 
 use crate::cube::CubeTarget;
 use boresight_core::Direction;
-use boresight_core::describe::Described;
+use boresight_options::Described;
 use serde::{Deserialize, Serialize};
 
 /// A flat road that reflects.

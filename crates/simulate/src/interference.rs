@@ -3,10 +3,10 @@
 //! Where its frequency comes within the band that the receiver passes after mixing, the other radar's ramp leaves a chirp
 //! whose slope is the difference of both (Brooker 2007): short where ramps cross, long where they are alike.
 
-use boresight_core::describe::Described;
-use boresight_core::error::check_range;
-use boresight_core::steering::cis;
-use boresight_core::{Complex64, CoreError, Direction, Random, Waveform};
+use boresight_core::{Complex64, Direction, InputError, Random, Waveform};
+use boresight_math::error::check_range;
+use boresight_math::phasor::cis;
+use boresight_options::Described;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -38,7 +38,7 @@ pub struct Interferer {
 }
 
 impl Interferer {
-    pub(crate) fn check(&self) -> Result<(), CoreError> {
+    pub(crate) fn check(&self) -> Result<(), InputError> {
         self.direction.check()?;
         for (what, value, least, most) in [
             ("power_db", self.power_db, -200.0, 200.0),

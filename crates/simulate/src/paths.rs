@@ -6,8 +6,8 @@
 //! far field's phase with growing range.
 
 use boresight_core::array::Position;
-use boresight_core::steering::cis;
 use boresight_core::{Array, Complex64, Imperfections};
+use boresight_math::phasor::cis;
 use ndarray::Array1;
 use std::f64::consts::TAU;
 

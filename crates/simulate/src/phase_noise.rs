@@ -4,8 +4,9 @@
 //! `tau` is mixed with it, so that its phase is off by `phi(t) - phi(t - tau)`, of variance `4 pi^2 K tau`: near targets
 //! have hardly any (Budge and Burt 1993).
 
-use boresight_core::units::{SPEED_OF_LIGHT_MPS, db_to_power};
+use boresight_core::units::SPEED_OF_LIGHT_MPS;
 use boresight_core::{Random, Waveform};
+use boresight_math::decibels::db_to_power;
 use std::f64::consts::PI;
 
 /// Distance from the carrier at which the level is given, Hz.

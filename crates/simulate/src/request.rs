@@ -3,9 +3,9 @@
 use crate::cube::{CubeOptions, CubeTarget, Field, simulate_cube};
 use crate::error::SimulateError;
 use crate::snapshots::{Scene, SnapshotOptions, SnapshotSimulator, Snapshots};
-use boresight_core::describe::Described;
 use boresight_core::imperfections::ImperfectionOptions;
 use boresight_core::{Array, Complex32, Waveform};
+use boresight_options::Described;
 use ndarray::Array5;
 use serde::{Deserialize, Serialize};
 

@@ -12,13 +12,14 @@ use crate::cost::sum_operations;
 use crate::error::SimulateError;
 use crate::paths::{Paths, moved};
 use boresight_core::array::Position;
-use boresight_core::describe::shaped::interleaved;
-use boresight_core::describe::{Described, columns};
-use boresight_core::error::check_range;
 use boresight_core::limits::{check_bytes, check_operations};
-use boresight_core::steering::{cis, steering_vector};
-use boresight_core::units::{db_to_amplitude, db_to_power};
-use boresight_core::{Array, Complex64, CoreError, Direction, Imperfections, Random};
+use boresight_core::steering::steering_vector;
+use boresight_core::{Array, Complex64, Direction, Imperfections, InputError, Random};
+use boresight_math::decibels::{db_to_amplitude, db_to_power};
+use boresight_math::error::check_range;
+use boresight_math::phasor::cis;
+use boresight_options::shaped::interleaved;
+use boresight_options::{Described, columns};
 use ndarray::{Array1, Array2, Array3, ArrayViewMut2, Axis};
 use serde::{Deserialize, Serialize, Serializer};
 use std::f64::consts::FRAC_PI_2;
@@ -163,8 +164,8 @@ impl SnapshotSimulator {
     /// Checks array and options.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for a number out of range, [`CoreError::Shape`] or
-    /// [`CoreError::NotFinite`] for imperfections that do not fit the array.
+    /// [`InputError::OutOfRange`] for a number out of range, [`InputError::Shape`] or
+    /// [`InputError::NotFinite`] for imperfections that do not fit the array.
     pub fn new(array: &Array, options: &SnapshotOptions) -> Result<Self, SimulateError> {
         check_range("snr_db", options.snr_db, -300.0, 300.0)?;
         check_range("snapshots", options.snapshots as f64, 1.0, MAX_SNAPSHOTS)?;
@@ -196,7 +197,7 @@ impl SnapshotSimulator {
     /// Snapshots (elements x snapshots) and targets of scene `index`.
     ///
     /// # Errors
-    /// [`CoreError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
+    /// [`InputError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
     pub fn scene(&self, index: u64) -> Result<(Array2<Complex64>, Vec<Target>), SimulateError> {
         self.check_cost(1)?;
         let shape = [self.array.len(), self.options.snapshots];
@@ -208,7 +209,7 @@ impl SnapshotSimulator {
     /// Scenes `first` to `first + count - 1`.
     ///
     /// # Errors
-    /// [`CoreError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
+    /// [`InputError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
     pub fn scenes(&self, first: u64, count: usize) -> Result<Snapshots, SimulateError> {
         let shape = [count, self.array.len(), self.options.snapshots];
         self.check_cost(count)?;
@@ -221,7 +222,7 @@ impl SnapshotSimulator {
         Ok(Snapshots { values, truth })
     }
 
-    fn check_cost(&self, scenes: usize) -> Result<(), CoreError> {
+    fn check_cost(&self, scenes: usize) -> Result<(), InputError> {
         let shape = [scenes, self.array.len(), self.options.snapshots];
         let values = check_bytes("the snapshots", &shape, size_of::<Complex64>())? as f64;
         let targets = match &self.options.scene {
@@ -308,7 +309,7 @@ impl SnapshotSimulator {
     }
 }
 
-fn check_sampling(sampling: &SceneSampling) -> Result<(), CoreError> {
+fn check_sampling(sampling: &SceneSampling) -> Result<(), InputError> {
     let [fewest, most] = sampling.count;
     check_range("most targets", most as f64, 0.0, MAX_TARGETS as f64)?;
     check_range("fewest targets", fewest as f64, 0.0, most as f64)?;

@@ -1,6 +1,6 @@
 //! Waveforms of the literature and of boards.
 
-use boresight_core::{CoreError, Multiplexing, Sampling, Waveform};
+use boresight_core::{InputError, Multiplexing, Sampling, Waveform};
 
 /// A waveform's name, and the function that makes it.
 type Preset = (&'static str, fn() -> Waveform);
@@ -21,10 +21,10 @@ pub fn waveform_presets() -> impl Iterator<Item = &'static str> {
 /// The waveform of a name.
 ///
 /// # Errors
-/// [`CoreError::Unknown`], listing the known names.
-pub fn waveform_preset(name: &str) -> Result<Waveform, CoreError> {
+/// [`InputError::Unknown`], listing the known names.
+pub fn waveform_preset(name: &str) -> Result<Waveform, InputError> {
     let preset = PRESETS.iter().find(|(known, _)| *known == name);
-    preset.map(|(_, make)| make()).ok_or_else(|| CoreError::Unknown {
+    preset.map(|(_, make)| make()).ok_or_else(|| InputError::Unknown {
         what: "waveform".into(),
         expected: waveform_presets().collect::<Vec<_>>().join(", "),
         given: name.into(),

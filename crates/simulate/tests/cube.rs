@@ -5,8 +5,9 @@
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::presets::preset;
 use boresight_core::steering::steering_vector;
-use boresight_core::units::{SPEED_OF_LIGHT_MPS, db_to_power};
-use boresight_core::{Array, Complex32, Complex64, CoreError, Direction, Imperfections, Waveform};
+use boresight_core::units::SPEED_OF_LIGHT_MPS;
+use boresight_core::{Array, Complex32, Complex64, Direction, Imperfections, InputError, Waveform};
+use boresight_math::decibels::db_to_power;
 use boresight_signal::range::{range_doppler_coupling_m, range_of_bin_m};
 use boresight_signal::range_doppler::rate_of_bin_mps;
 use boresight_signal::{
@@ -242,10 +243,10 @@ fn what_cannot_be_simulated_is_named() {
     assert!(run(&waveform, &array, good, &short).contains("errors"));
     let long = CubeOptions { frames: 100_000, ..options.clone() };
     let error = simulate_cube(&waveform, &array, &[good], &long).unwrap_err();
-    assert!(matches!(error, SimulateError::Argument(CoreError::TooLarge { .. })));
+    assert!(matches!(error, SimulateError::Argument(InputError::TooLarge { .. })));
     let none = CubeOptions { frames: 0, ..options };
     let error = simulate_cube(&waveform, &array, &[good], &none).unwrap_err();
-    assert!(matches!(error, SimulateError::Argument(CoreError::OutOfRange { .. })));
+    assert!(matches!(error, SimulateError::Argument(InputError::OutOfRange { .. })));
 }
 
 fn any_number() -> impl Strategy<Value = f64> {

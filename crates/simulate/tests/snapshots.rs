@@ -3,11 +3,11 @@
 #![allow(clippy::unwrap_used)]
 
 use boresight_core::imperfections::ImperfectionSpread;
-use boresight_core::linalg::hermitian_eigen;
 use boresight_core::presets::preset;
 use boresight_core::steering::steering_vector;
-use boresight_core::units::db_to_power;
-use boresight_core::{Array, Complex64, CoreError, Diagnose, Direction, Imperfections};
+use boresight_core::{Array, Complex64, Diagnose, Direction, Imperfections, InputError};
+use boresight_math::decibels::db_to_power;
+use boresight_math::linalg::hermitian_eigen;
 use boresight_signal::sample_covariance;
 use boresight_simulate::{
     Fluctuation, Scene, SceneSampling, SimulateError, SnapshotOptions, SnapshotSimulator, Target,
@@ -248,13 +248,13 @@ fn too_much_and_too_little_are_named() {
     let simulator = SnapshotSimulator::new(&array, &good).unwrap();
     assert!(matches!(
         simulator.scenes(0, usize::MAX),
-        Err(SimulateError::Argument(CoreError::TooLarge { .. }))
+        Err(SimulateError::Argument(InputError::TooLarge { .. }))
     ));
     assert_eq!(simulator.scenes(0, 0).unwrap().truth.len(), 0);
     let none = SnapshotOptions { snapshots: 0, ..good.clone() };
     assert!(matches!(
         SnapshotSimulator::new(&array, &none),
-        Err(SimulateError::Argument(CoreError::OutOfRange { .. }))
+        Err(SimulateError::Argument(InputError::OutOfRange { .. }))
     ));
     for (range_m, wavelength_m, what) in
         [(0.0, 0.004, "range_m"), (f64::NAN, 0.004, "range_m"), (1.0, 0.0, "wavelength_m")]

@@ -1,7 +1,7 @@
 //! The methods of mounting angles that are compared, and what they are compared by.
 
-use boresight_calibrate::network::MotionNetwork;
-use boresight_calibrate::{CalibrationOptions, FrameInput, FrameWeights, Method, MotionMethod};
+use boresight_mounting::network::MotionNetwork;
+use boresight_mounting::{CalibrationOptions, FrameInput, FrameWeights, Method, MotionMethod};
 use std::sync::{Arc, LazyLock};
 
 /// Driving times of Figure 6, s.

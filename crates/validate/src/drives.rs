@@ -5,10 +5,10 @@ use crate::drives_report::DrivesReport;
 use crate::error::ValidateError;
 use crate::experiment::Experiment;
 use crate::whole::{Answer, DRIVING_MPS, Drive, Radar, WholeRecord, joint_estimates, run};
-use boresight_calibrate::{CalibrationOptions, Method};
 use boresight_core::drive::{Mounting, STATIC_LABEL, Scan, Sensor};
-use boresight_core::error::check_range;
-use boresight_core::{CoreError, DriveLog};
+use boresight_core::{DriveLog, InputError};
+use boresight_math::error::check_range;
+use boresight_mounting::{CalibrationOptions, Method};
 use serde::{Deserialize, Serialize};
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -82,7 +82,7 @@ impl Experiment for DrivesExperiment {
     fn plan(&self) -> Result<(), ValidateError> {
         if self.drives.is_empty() {
             let expected = "at least one folder with a drive".into();
-            return Err(CoreError::Empty { what: "drives".into(), expected }.into());
+            return Err(InputError::Empty { what: "drives".into(), expected }.into());
         }
         for (i, length_s) in self.pieces_s.iter().enumerate() {
             check_range(&format!("piecesS[{i}]"), *length_s, 1.0, 1e5)?;

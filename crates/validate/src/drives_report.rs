@@ -11,7 +11,7 @@ use crate::statistics::Summary;
 use crate::table::{Best, Cell, Table, Tables};
 use crate::tables::or_none;
 use crate::whole::{Answer, WholeRecord};
-use boresight_calibrate::Method;
+use boresight_mounting::Method;
 use serde::Serialize;
 
 /// The experiment's result.

@@ -1,7 +1,7 @@
 //! Errors of validation.
 
-use boresight_calibrate::CalibrateError;
-use boresight_core::{CoreError, Details, Diagnose};
+use boresight_core::{Details, Diagnose, InputError};
+use boresight_mounting::MountingError;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -11,7 +11,7 @@ use thiserror::Error;
 pub enum ValidateError {
     /// An option is wrong.
     #[error(transparent)]
-    Core(#[from] CoreError),
+    Core(#[from] InputError),
     /// A drive cannot be read.
     #[error("drive {name}: {source}")]
     Drive {
@@ -22,7 +22,7 @@ pub enum ValidateError {
     },
     /// A calibration refused.
     #[error(transparent)]
-    Calibrate(#[from] CalibrateError),
+    Calibrate(#[from] MountingError),
     /// The system refused a file of the output folder.
     #[error("cannot {action} {}: {error}", path.display())]
     File {

@@ -4,7 +4,7 @@ use crate::error::ValidateError;
 use crate::experiment::{Experiment, Records, file_name, outcome, setup, side_by_side};
 use crate::outcome::Outcome;
 use crate::sweep::{self, Line};
-use boresight_core::CoreError;
+use boresight_core::InputError;
 use boresight_fleet::Part;
 use boresight_fleet::lines::whole_lines;
 use serde_json::Value;
@@ -40,7 +40,7 @@ impl Parts {
     ///
     /// # Errors
     /// [`ValidateError::OtherRun`] where experiments differ; [`ValidateError::Conflict`] where two files hold different
-    /// records of a scene; [`CoreError::Empty`] where there are no records; those of the files.
+    /// records of a scene; [`InputError::Empty`] where there are no records; those of the files.
     pub fn read(sources: &[PathBuf]) -> Result<Self, ValidateError> {
         let sources = files(sources)?;
         Ok(Self { gathered: gather(&sources)?, sources })
@@ -107,7 +107,7 @@ fn gather(sources: &[PathBuf]) -> Result<Vec<Gathered>, ValidateError> {
 
 fn nothing() -> ValidateError {
     let expected = "files ending in .jsonl, or folders with such files".into();
-    CoreError::Empty { what: "records".into(), expected }.into()
+    InputError::Empty { what: "records".into(), expected }.into()
 }
 
 fn other_run(path: &Path, expected: &Value, given: &Value) -> ValidateError {

@@ -1,7 +1,7 @@
 //! Scenes by number, over threads, with records that survive a stop.
 
 use crate::error::ValidateError;
-use boresight_core::CoreError;
+use boresight_core::InputError;
 use boresight_core::Progress;
 use boresight_fleet::Part;
 use boresight_fleet::lines::LineFile;
@@ -70,7 +70,7 @@ pub fn run<R: Serialize + DeserializeOwned + Send, E: From<ValidateError> + Send
     if sweep.threads == 0 {
         let (what, expected) = ("threads".into(), "at least 1".into());
         return Err(
-            ValidateError::from(CoreError::OutOfRange { what, expected, given: 0.0 }).into()
+            ValidateError::from(InputError::OutOfRange { what, expected, given: 0.0 }).into()
         );
     }
     let (mut done, mut file) = match sweep.records {

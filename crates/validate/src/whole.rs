@@ -2,12 +2,12 @@
 
 use crate::candidates::{CANDIDATES, Candidate, DRIVING_TIMES_S, SEGMENTS_M, network};
 use crate::error::ValidateError;
-use boresight_calibrate::trajectory::{TimedMotion, integrate, relative_error};
-use boresight_calibrate::{
-    AngleEstimate, CalibrationOptions, Calibrator, FrameInput, FrameOutcome, Frames, Joint, Method,
-};
 use boresight_core::DriveLog;
 use boresight_core::drive::{Mounting, Pose};
+use boresight_mounting::trajectory::{TimedMotion, integrate, relative_error};
+use boresight_mounting::{
+    AngleEstimate, CalibrationOptions, Calibrator, FrameInput, FrameOutcome, Frames, Joint, Method,
+};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 

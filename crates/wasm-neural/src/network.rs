@@ -3,10 +3,10 @@
 use crate::constructors::construct;
 use crate::tensors::{read_tensors, tensors_object};
 use boresight_aoa::{self as aoa, EstimatorOptions, Estimators, Method};
-use boresight_core::describe::{Described, Named};
 use boresight_core::presets::preset;
-use boresight_core::{Array, CoreError, Waveform};
+use boresight_core::{Array, InputError, Waveform};
 use boresight_neural::{Card, Kind, Model, Port};
+use boresight_options::{Described, Named};
 use boresight_pipeline::{Chain, ChainOptions};
 use boresight_wasm::bytes::Bytes;
 use boresight_wasm::capture::{Capture, process_cube_by};
@@ -189,7 +189,7 @@ impl Network {
             Some(method) if self.model.kind().method() != Some(method) => {
                 let expected = self.model.kind().method().map_or("none", Method::name);
                 let (what, given) = ("method".into(), method.name().into());
-                Err(CoreError::Unknown { what, expected: expected.into(), given }.into())
+                Err(InputError::Unknown { what, expected: expected.into(), given }.into())
             }
             _ => Ok(()),
         }

@@ -1,7 +1,7 @@
 //! Named tensors in and out.
 
-use boresight_core::CoreError;
-use boresight_core::describe::columns;
+use boresight_core::InputError;
+use boresight_options::columns;
 use boresight_wasm::carry;
 use boresight_wasm::error::Fallible;
 use boresight_wasm::given;
@@ -26,7 +26,7 @@ impl Read for Tensor {
         let shape: Vec<usize> = fields.required("shape")?;
         fields.finish()?;
         let given = data.len();
-        let array = ArrayD::from_shape_vec(&*shape, data).map_err(|_| CoreError::Shape {
+        let array = ArrayD::from_shape_vec(&*shape, data).map_err(|_| InputError::Shape {
             what: own,
             expected: format!("1 number for each entry of shape {shape:?}"),
             given: vec![given],

@@ -12,8 +12,8 @@ use crate::report::reporter;
 use boresight_array_calibration::{
     CalibrationOptions, CalibrationResult, Cell, SteeringTable, calibrate,
 };
-use boresight_core::error::check_range;
-use boresight_core::{Array, CoreError, Direction, Waveform};
+use boresight_core::{Array, Direction, InputError, Waveform};
+use boresight_math::error::check_range;
 use boresight_pipeline::FrameSource;
 use boresight_pipeline::array_calibration::{CalibrationFrames, calibrate_array};
 use js_sys::Function;
@@ -149,7 +149,7 @@ fn read_cells(input: &JsValue) -> Fallible<Vec<Cell>> {
     for (what, given) in [("azimuth_deg", &azimuth), ("elevation_deg", &elevation)] {
         if let Some(given) = given.as_ref().filter(|given| given.len() != count) {
             let (what, expected) = (what.into(), format!("[{count}], one a cell"));
-            return Err(CoreError::Shape { what, expected, given: vec![given.len()] }.into());
+            return Err(InputError::Shape { what, expected, given: vec![given.len()] }.into());
         }
     }
     let mut cells = vec![];

@@ -5,12 +5,12 @@ use crate::carry;
 use crate::complex::float_array;
 use crate::error::Fallible;
 use crate::read::{Fields, Read, items};
-use boresight_calibrate::network::MotionNetwork;
-use boresight_calibrate::{
-    self as calibrate, CalibrateError, CalibrationOptions, Calibrator, FrameInput,
+use boresight_core::{Detection, InputError};
+use boresight_math::error::check_single;
+use boresight_mounting::network::MotionNetwork;
+use boresight_mounting::{
+    self as calibrate, CalibrationOptions, Calibrator, FrameInput, MountingError,
 };
-use boresight_core::error::check_single;
-use boresight_core::{CoreError, Detection};
 use std::sync::Arc;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -26,7 +26,7 @@ pub fn read_options(value: &JsValue) -> Fallible<(CalibrationOptions, Option<Arc
 
 fn read_network(value: &JsValue, path: &str) -> Fallible<Arc<MotionNetwork>> {
     let bytes = Bytes::read(value, path)?.0;
-    Ok(Arc::new(MotionNetwork::read(&bytes).map_err(CalibrateError::from)?))
+    Ok(Arc::new(MotionNetwork::read(&bytes).map_err(MountingError::from)?))
 }
 
 /// A calibration in progress.
@@ -153,5 +153,5 @@ fn column(fields: &mut Fields, name: &'static str, count: usize) -> Fallible<Vec
         return Ok(numbers);
     }
     let (what, expected) = (fields.path_of(name), format!("[{count}], as azimuthDeg has"));
-    Err(CoreError::Shape { what, expected, given: vec![numbers.len()] }.into())
+    Err(InputError::Shape { what, expected, given: vec![numbers.len()] }.into())
 }

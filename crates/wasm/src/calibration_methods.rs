@@ -1,8 +1,8 @@
 //! The methods of mounting angles by name; what runs them is in the module of drives.
 
 use crate::carry;
-use boresight_calibrate::Method;
-use boresight_core::describe::Described;
+use boresight_mounting::Method;
+use boresight_options::Described;
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 

@@ -3,7 +3,7 @@
 use crate::error::{BindingError, Fallible};
 use crate::given;
 use crate::read::{Fields, Read, wrong_type};
-use boresight_core::{Complex32, Complex64, CoreError};
+use boresight_core::{Complex32, Complex64, InputError};
 use js_sys::{Float32Array, Float64Array};
 use ndarray::ArrayView4;
 use wasm_bindgen::JsValue;
@@ -61,7 +61,7 @@ impl Cube {
     /// The cube of one frame: loops x transmitters x receivers x samples, with or without an axis of
     /// frames before.
     pub fn one_frame(&self) -> Fallible<ArrayView4<'_, Complex32>> {
-        let wrong = || CoreError::Shape {
+        let wrong = || InputError::Shape {
             what: "cube".into(),
             expected: "[loops, transmitters, receivers, samples], or that after one frame".into(),
             given: self.shape.clone(),
@@ -152,12 +152,12 @@ fn check_length(
 ) -> Fallible<()> {
     let entries = shape.iter().try_fold(each, |product, &n| product.checked_mul(n));
     if given == 0 && (fewest == Fewest::One || entries != Some(0)) {
-        return Err(CoreError::Empty { what, expected: "at least one number".into() }.into());
+        return Err(InputError::Empty { what, expected: "at least one number".into() }.into());
     }
     if entries == Some(given) {
         return Ok(());
     }
     let numbers = if each == 1 { "1 number" } else { "2 numbers" };
     let expected = format!("{numbers} for each entry of shape {shape:?}");
-    Err(CoreError::Shape { what, expected, given: vec![given] }.into())
+    Err(InputError::Shape { what, expected, given: vec![given] }.into())
 }

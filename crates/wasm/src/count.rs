@@ -5,7 +5,7 @@ use crate::error::Fallible;
 use crate::estimate::Input;
 use crate::read::Read;
 use boresight_aoa::order::counting::{CountOptions, count_sources_in};
-use boresight_core::describe::{Described, columns};
+use boresight_options::{Described, columns};
 use serde::Serialize;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;

@@ -5,16 +5,16 @@ use crate::carry;
 use crate::error::Fallible;
 use crate::read::Read;
 use crate::report::reporter;
-use boresight_calibrate::{CalibrationOptions, SignOptions, signs};
 use boresight_core::Progress;
 use boresight_core::Remark;
-use boresight_core::describe::Described;
 use boresight_core::drive::DriveLog;
 use boresight_core::drive_columns::DriveColumns;
 use boresight_formats::drive_log::{
     self, DriveFormat, DriveRead, DriveTopic, DropReason, McapDriveReader, MountingSource,
     ReadReport, TopicOptions,
 };
+use boresight_mounting::{CalibrationOptions, SignOptions, signs};
+use boresight_options::Described;
 use boresight_simulate::drive::TruthColumns;
 use boresight_simulate::{DriveOptions, Scenario, simulate_drive_reporting};
 use js_sys::Function;

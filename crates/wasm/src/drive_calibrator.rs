@@ -6,12 +6,12 @@ use crate::carry;
 use crate::error::{BindingError, Fallible};
 use crate::given;
 use crate::read::{Fields, items};
-use boresight_calibrate::{
+use boresight_core::Detection;
+use boresight_core::drive::interpolated;
+use boresight_mounting::{
     AngleEstimate, CalibrationOptions, Calibrator, FrameInput, Joint, Outlook,
 };
-use boresight_core::Detection;
-use boresight_core::describe::Named;
-use boresight_core::drive::interpolated;
+use boresight_options::Named;
 use boresight_report::{About, Radar, Recorder, Source, page};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;

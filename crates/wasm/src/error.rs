@@ -3,15 +3,15 @@
 use crate::carry;
 use boresight_aoa::AoaError;
 use boresight_array_calibration::ArrayCalibrationError;
-#[cfg(feature = "drives")]
-use boresight_calibrate::CalibrateError;
-use boresight_core::describe::At;
-use boresight_core::describe::naming::camel_case;
-#[cfg(feature = "drives")]
-use boresight_core::describe::naming::javascript;
-use boresight_core::{CoreError, Details, Diagnose};
+use boresight_core::{Details, Diagnose, InputError};
 use boresight_formats::FormatError;
 use boresight_image::ImageError;
+#[cfg(feature = "drives")]
+use boresight_mounting::MountingError;
+use boresight_options::At;
+use boresight_options::naming::camel_case;
+#[cfg(feature = "drives")]
+use boresight_options::naming::javascript;
 use boresight_pipeline::PipelineError;
 use boresight_signal::SignalError;
 use boresight_simulate::SimulateError;
@@ -31,7 +31,7 @@ pub type Fallible<T> = Result<T, BindingError>;
 pub enum BindingError {
     /// An argument is wrong in itself.
     #[error(transparent)]
-    Argument(#[from] CoreError),
+    Argument(#[from] InputError),
     /// The estimators refused.
     #[error(transparent)]
     Aoa(#[from] AoaError),
@@ -41,7 +41,7 @@ pub enum BindingError {
     /// The calibration refused.
     #[cfg(feature = "drives")]
     #[error(transparent)]
-    Calibrate(CalibrateError),
+    Calibrate(MountingError),
     /// A file cannot be read or written.
     #[error(transparent)]
     Format(#[from] FormatError),
@@ -106,8 +106,8 @@ pub enum BindingError {
 }
 
 #[cfg(feature = "drives")]
-impl From<CalibrateError> for BindingError {
-    fn from(error: CalibrateError) -> Self {
+impl From<MountingError> for BindingError {
+    fn from(error: MountingError) -> Self {
         Self::Calibrate(error.renamed(javascript))
     }
 }
@@ -171,8 +171,8 @@ impl BindingError {
     pub fn at(self, at: &At<'_>) -> Self {
         let placed = |what: String| if what.is_empty() { at.path() } else { what };
         match self {
-            Self::Argument(CoreError::Unknown { what, expected, given }) => {
-                CoreError::Unknown { what: placed(what), expected, given }.into()
+            Self::Argument(InputError::Unknown { what, expected, given }) => {
+                InputError::Unknown { what: placed(what), expected, given }.into()
             }
             Self::Type { what, expected, given } => {
                 Self::Type { what: placed(what), expected, given }

@@ -7,8 +7,8 @@ use crate::options::read_estimator;
 use crate::read::{Fields, Read};
 use boresight_aoa::method::Requirements;
 use boresight_aoa::{self as aoa, Data, Method};
-use boresight_core::describe::Described;
-use boresight_core::{Array, Complex64, CoreError};
+use boresight_core::{Array, Complex64, InputError};
+use boresight_options::Described;
 use ndarray::{ArrayView2, ArrayView3, ArrayViewMut2};
 use serde::Serialize;
 use wasm_bindgen::JsValue;
@@ -179,7 +179,7 @@ impl Input {
         let wrong = || shape_error("input", "a matrix", &shape);
         for side in 0..sides {
             if side == 1 {
-                let adjoint = boresight_core::linalg::adjoint(as_matrix(data, "covariance")?);
+                let adjoint = boresight_math::linalg::adjoint(as_matrix(data, "covariance")?);
                 data.data = adjoint.into_iter().collect();
             }
             let view = ArrayViewMut2::from_shape((rows, columns), &mut data.data);
@@ -228,5 +228,5 @@ fn matrix<'a>(
 /// The error for data of the wrong shape.
 pub fn shape_error(what: &str, expected: &str, given: &[usize]) -> BindingError {
     let given = given.to_vec();
-    CoreError::Shape { what: what.into(), expected: expected.into(), given }.into()
+    InputError::Shape { what: what.into(), expected: expected.into(), given }.into()
 }

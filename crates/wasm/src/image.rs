@@ -7,15 +7,15 @@ use crate::estimate::shape_error;
 use crate::given;
 use crate::read::{Fields, Read, wrong_type};
 use boresight_aoa::{Method, SpectrumKind};
-use boresight_core::describe::Described;
 use boresight_core::drive::Mounting;
-use boresight_core::error::check_range;
-use boresight_core::units::db_to_power;
-use boresight_core::{Array, CoreError, Waveform};
+use boresight_core::{Array, InputError, Waveform};
 use boresight_image::{
     Axis, BirdsEyeView, Gate, Grid, GridOptions, Outside, RangeAzimuthDoppler, RangeAzimuthMap,
     SpectrumPlan, Target, ViewGrid, birds_eye_view, sidelobe_measure,
 };
+use boresight_math::decibels::db_to_power;
+use boresight_math::error::check_range;
+use boresight_options::Described;
 use boresight_pipeline::image::{Angles, Content, chain_options, map_grid};
 use boresight_pipeline::{AngleOptions, ChainOptions, suited};
 use boresight_signal::CfarOptions;
@@ -167,7 +167,7 @@ fn powers(fields: &mut Fields, shape: (usize, usize)) -> Fallible<Array2<f32>> {
         float_array(fields, "power")?.0.into_iter().map(|power| power as f32).collect();
     if let Some(index) = power.iter().position(|power| !(0.0..=f32::MAX).contains(power)) {
         let given = power[index].into();
-        return Err(CoreError::NotFinite { what: path, index, given }.into());
+        return Err(InputError::NotFinite { what: path, index, given }.into());
     }
     let given = [power.len()];
     let expected = format!("[{}, {}]", shape.0, shape.1);

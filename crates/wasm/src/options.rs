@@ -5,7 +5,7 @@ use crate::error::Fallible;
 use crate::read::{Fields, Read, choice};
 use boresight_aoa::{EstimatorOptions, Method};
 use boresight_core::Array;
-use boresight_core::describe::Named;
+use boresight_options::Named;
 use wasm_bindgen::JsValue;
 
 impl Read for Method {

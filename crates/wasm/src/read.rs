@@ -3,8 +3,8 @@
 use crate::carry::{Known, Reader, read_named};
 use crate::error::{BindingError, Fallible};
 use crate::given;
-use boresight_core::CoreError;
-use boresight_core::describe::{At, Described, Naming};
+use boresight_core::InputError;
+use boresight_options::{At, Described, Naming};
 use js_sys::{BigInt, Object};
 use serde::de::DeserializeOwned;
 use wasm_bindgen::{JsCast, JsValue};
@@ -129,7 +129,7 @@ pub fn choice<T: Copy>(value: &JsValue, path: &str, choices: &[(&str, T)]) -> Fa
     };
     match choices.iter().find(|(name, _)| *name == given) {
         Some((_, choice)) => Ok(*choice),
-        None => Err(CoreError::Unknown {
+        None => Err(InputError::Unknown {
             what: path.into(),
             expected: names(),
             given: shortened(&given),
@@ -197,7 +197,7 @@ impl Read for f64 {
         if !given.is_finite() {
             let what = path.into();
             return Err(
-                CoreError::OutOfRange { what, expected: "a finite number".into(), given }.into()
+                InputError::OutOfRange { what, expected: "a finite number".into(), given }.into()
             );
         }
         Ok(given)
@@ -213,7 +213,7 @@ impl Read for usize {
             return Ok(given as usize);
         }
         let expected = format!("a whole number from 0 to {}", u32::MAX);
-        Err(CoreError::OutOfRange { what: path.into(), expected, given }.into())
+        Err(InputError::OutOfRange { what: path.into(), expected, given }.into())
     }
 }
 
@@ -227,7 +227,7 @@ impl Read for u64 {
                 return Ok(given as u64);
             }
             let expected = "a whole number from 0 to 2^53 - 1, or a bigint".into();
-            return Err(CoreError::OutOfRange { what: path.into(), expected, given }.into());
+            return Err(InputError::OutOfRange { what: path.into(), expected, given }.into());
         }
         value
             .dyn_ref::<BigInt>()
@@ -262,7 +262,7 @@ impl<T: Read, const N: usize> Read for [T; N] {
             items.iter().map(|(item, path)| T::read(item, path)).collect::<Fallible<_>>()?;
         read.try_into().map_err(|_| {
             let expected = format!("[{N}]");
-            CoreError::Shape { what: path.into(), expected, given: vec![given] }.into()
+            InputError::Shape { what: path.into(), expected, given: vec![given] }.into()
         })
     }
 }

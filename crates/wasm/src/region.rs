@@ -4,9 +4,9 @@ use crate::carry;
 use crate::complex::Cube;
 use crate::error::Fallible;
 use crate::read::Read;
-use boresight_core::describe::shaped::ComplexArray;
-use boresight_core::describe::{Described, columns};
 use boresight_core::{Complex32, Complex64};
+use boresight_options::shaped::ComplexArray;
+use boresight_options::{Described, columns};
 pub use boresight_signal::region::RegionOptions;
 use boresight_signal::region::{
     covariance_features, crop_region, range_spectrum, region_channels, region_covariance,

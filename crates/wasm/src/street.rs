@@ -3,7 +3,7 @@
 use crate::carry;
 use crate::error::Fallible;
 use crate::read::{Fields, choice};
-use boresight_core::describe::Described;
+use boresight_options::Described;
 use boresight_simulate::street::{STREET_RADARS, Street, StreetRadar};
 use boresight_simulate::{CubeColumns, VisibleTarget};
 use serde::Serialize;

@@ -6,10 +6,10 @@ use crate::complex::ComplexData;
 use crate::error::Fallible;
 use crate::estimate::as_matrix;
 use crate::read::{Read, items};
-use boresight_core::describe::shaped::ComplexArray;
 use boresight_formats::tables::{
     DetectionRow, read_detections, read_snapshots, write_detections, write_snapshots,
 };
+use boresight_options::shaped::ComplexArray;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 

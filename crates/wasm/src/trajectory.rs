@@ -2,10 +2,10 @@
 //! crate, which checks what goes in.
 
 use crate::carry;
-use boresight_calibrate::trajectory::{self, TimedMotion};
-use boresight_core::describe::{Described, columns};
 use boresight_core::drive::{DriveLog, MotionSample, Pose};
 use boresight_core::drive_columns::DrivePoses;
+use boresight_mounting::trajectory::{self, TimedMotion};
+use boresight_options::{Described, columns};
 use serde::Serialize;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;

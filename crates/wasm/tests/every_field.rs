@@ -3,7 +3,7 @@
 
 #![cfg(target_arch = "wasm32")]
 
-use boresight_core::describe::{Described, Field, Kind, Record, differing_fields, lies_in, naming};
+use boresight_options::{Described, Field, Kind, Record, differing_fields, lies_in, naming};
 use boresight_wasm::carry;
 use js_sys::{Array, Object, Reflect};
 use serde::de::DeserializeOwned;
@@ -23,7 +23,7 @@ fn options_of_the_chain() {
 
 #[wasm_bindgen_test]
 fn options_of_calibration() {
-    every_field::<boresight_calibrate::CalibrationOptions>(19);
+    every_field::<boresight_mounting::CalibrationOptions>(19);
 }
 
 #[wasm_bindgen_test]

@@ -7,8 +7,6 @@
 use boresight_aoa::bounds::{Signals, deterministic_bound, uncorrelated};
 use boresight_aoa::suits::unsuited;
 use boresight_aoa::{Data, Estimator, EstimatorOptions, Method};
-use boresight_calibrate::{Calibrator, FrameInput, Method as Calibration};
-use boresight_core::describe::{Described, Kind, NumberType, Record, naming};
 use boresight_core::drive_columns::DriveColumns;
 use boresight_core::presets::preset;
 use boresight_core::{Array, Direction, Geometry};
@@ -16,6 +14,8 @@ use boresight_formats::{BoardLog, RadarConfig};
 use boresight_image::{
     Gate, Grid, RangeAzimuthDoppler, Target, ViewGrid, birds_eye_view, sidelobe_measure,
 };
+use boresight_mounting::{Calibrator, FrameInput, Method as Calibration};
+use boresight_options::{Described, Kind, NumberType, Record, naming};
 use boresight_pipeline::regions::{RegionCounts, RegionFrame, RegionTarget, TargetRegion};
 use boresight_pipeline::{AngleOptions, Chain, ChainOptions};
 use boresight_simulate::street::{Street, StreetOptions};
@@ -268,11 +268,11 @@ fn records_of_drives_and_mounting_angles() {
     whole(&DriveColumns::from(&drive.log));
     whole(&drive.truth_columns());
     let Some(mounting) = drive.log.sensors[0].mounting else { panic!("a mounting") };
-    let options = boresight_calibrate::CalibrationOptions {
+    let options = boresight_mounting::CalibrationOptions {
         method: Calibration::Recursive,
         x_m: mounting.x_m,
         y_m: mounting.y_m,
-        ..boresight_calibrate::CalibrationOptions::default()
+        ..boresight_mounting::CalibrationOptions::default()
     };
     let mut calibrator = Calibrator::new(options).unwrap();
     for scan in drive.log.scans.iter().filter(|scan| scan.sensor == drive.log.sensors[0].id) {

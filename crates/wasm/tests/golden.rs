@@ -5,10 +5,10 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use boresight_aoa::{Data, Estimator, EstimatorOptions, Method, SourceCount};
-use boresight_core::fft::Transforms;
 use boresight_core::presets::preset;
-use boresight_core::steering::cis;
 use boresight_core::{Complex32, Complex64, Direction, Random};
+use boresight_math::fft::Transforms;
+use boresight_math::phasor::cis;
 use boresight_simulate::digest::{
     REFERENCE_CUBE, REFERENCE_DRIVE, REFERENCE_RADARSCENES_DRIVE, REFERENCE_SNAPSHOTS,
     REFERENCE_STREET, reference_cube, reference_drive, reference_radarscenes_drive,

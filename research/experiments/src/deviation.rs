@@ -2,8 +2,8 @@
 
 use boresight_aoa::Source;
 use boresight_core::steering::steering_vector;
-use boresight_core::units::{db_to_power, power_to_db};
 use boresight_core::{Array, Complex64};
+use boresight_math::decibels::{db_to_power, power_to_db};
 use boresight_simulate::Target;
 use serde::{Deserialize, Serialize};
 

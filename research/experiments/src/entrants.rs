@@ -4,7 +4,7 @@
 //! run again, the methods are not.
 
 use crate::EvaluateError;
-use boresight_core::CoreError;
+use boresight_core::InputError;
 use boresight_neural::{Kind, Model};
 use serde::{Deserialize, Serialize};
 
@@ -79,14 +79,14 @@ impl Entrants {
     }
 
     /// Whether there is anything to compare, and no name of a network twice.
-    pub(crate) fn check(&self) -> Result<(), CoreError> {
+    pub(crate) fn check(&self) -> Result<(), InputError> {
         if self.methods.is_empty() && self.networks.is_empty() {
             let expected = "at least one method or network".into();
-            return Err(CoreError::Empty { what: "methods".into(), expected });
+            return Err(InputError::Empty { what: "methods".into(), expected });
         }
         for (k, Network { name, .. }) in self.networks.iter().enumerate() {
             if self.networks[..k].iter().any(|known| known.name == *name) {
-                return Err(CoreError::Incompatible {
+                return Err(InputError::Incompatible {
                     what: "networks".into(),
                     expected: "each of a name of its own".into(),
                     given: format!("two of the name {name}"),

@@ -1,10 +1,10 @@
 //! Errors of the experiments.
 
 use boresight_aoa::AoaError;
-use boresight_calibrate::CalibrateError;
 use boresight_cli::error::CliError;
-use boresight_core::{CoreError, Details, Diagnose};
+use boresight_core::{Details, Diagnose, InputError};
 use boresight_image::ImageError;
+use boresight_mounting::MountingError;
 use boresight_neural::NeuralError;
 use boresight_pipeline::PipelineError;
 use boresight_signal::SignalError;
@@ -24,7 +24,7 @@ pub enum EvaluateError {
     Run(#[from] ValidateError),
     /// An option is wrong.
     #[error(transparent)]
-    Core(#[from] CoreError),
+    Core(#[from] InputError),
     /// A scene cannot be simulated.
     #[error(transparent)]
     Simulate(#[from] SimulateError),
@@ -45,7 +45,7 @@ pub enum EvaluateError {
     },
     /// A calibration refused.
     #[error(transparent)]
-    Calibrate(#[from] CalibrateError),
+    Calibrate(#[from] MountingError),
     /// Cells cannot be found in a frame.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),

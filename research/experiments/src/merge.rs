@@ -5,7 +5,7 @@ use crate::{
     aoa, arrays, calibration, doa, images, imperfections, low_snr, near_field, resolution,
     straddling,
 };
-use boresight_core::CoreError;
+use boresight_core::InputError;
 use boresight_validate::merge::{Merged, Parts};
 use boresight_validate::{DrivesExperiment, Experiment as _};
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 /// Puts together the records in `sources`, files of records or folders of them, of whichever experiment.
 ///
 /// # Errors
-/// Those of [`Parts::read`] and [`Parts::put_together`]; [`CoreError::Unknown`] for records of no experiment.
+/// Those of [`Parts::read`] and [`Parts::put_together`]; [`InputError::Unknown`] for records of no experiment.
 pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
     let parts = Parts::read(sources)?;
     match parts.experiment() {
@@ -40,7 +40,7 @@ pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
         straddling::StraddlingExperiment::NAME => {
             parts.put_together::<straddling::StraddlingExperiment>()
         }
-        name => Err(CoreError::Unknown {
+        name => Err(InputError::Unknown {
             what: format!("experiment of {}", parts.first().display()),
             expected:
                 "aoa, arrays, calibration, calibration-drives, doa, images, imperfections, low-snr, near-field, resolution, straddling"

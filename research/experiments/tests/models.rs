@@ -4,9 +4,10 @@
 
 use boresight_aoa::{Data, EstimatorOptions};
 use boresight_core::presets::preset;
-use boresight_core::steering::{cis, steering_matrix};
+use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Complex64, Direction, Random};
 use boresight_formats::NpyArray;
+use boresight_math::phasor::cis;
 use boresight_neural::{Card, Model};
 use ndarray::{Array2, ArrayD};
 use std::f64::consts::FRAC_PI_3;

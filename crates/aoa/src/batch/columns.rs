@@ -3,7 +3,7 @@
 use crate::batch::{BatchEstimate, Spectra, WarningCount};
 use crate::estimate::{Source, SpectrumKind};
 use crate::method::Method;
-use boresight_core::describe::{Described, columns, decibels};
+use boresight_options::{Described, columns, decibels};
 use serde::Serialize;
 
 /// The estimates of many cells, flat: numbers of each source, those of a cell together, strongest first.

@@ -8,9 +8,9 @@ use crate::error::AoaError;
 use crate::estimate::{Estimate, Source, SpectrumKind, Warning};
 use crate::estimator::Estimator;
 use crate::method::Method;
-use boresight_core::describe::{Described, remark};
 use boresight_core::limits::{check_bytes, check_operations};
-use boresight_core::{Complex64, CoreError, Remark};
+use boresight_core::{Complex64, InputError, Remark};
+use boresight_options::{Described, remark};
 use ndarray::{ArrayView3, Axis};
 use serde::Serialize;
 
@@ -153,7 +153,7 @@ impl Estimator {
     ///
     /// # Errors
     /// [`AoaError`] when the data is malformed or does not suit the method; then there is no result
-    /// for any cell. [`CoreError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
+    /// for any cell. [`InputError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
     pub fn estimate_batch(
         &mut self,
         snapshots: ArrayView3<'_, Complex64>,
@@ -177,7 +177,7 @@ impl Estimator {
         out.clear(self.method(), spectra);
         let (cells, elements, count) = snapshots.dim();
         if elements != self.array().len() || count == 0 || u32::try_from(cells).is_err() {
-            return Err(CoreError::Shape {
+            return Err(InputError::Shape {
                 what: "snapshots".into(),
                 expected: format!("[cells, {}, snapshots]", self.array().len()),
                 given: vec![cells, elements, count],

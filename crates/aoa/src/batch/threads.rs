@@ -6,8 +6,8 @@ use crate::estimator::Estimator;
 use crate::method::Method;
 use crate::options::EstimatorOptions;
 use crate::order::counted::CountSources;
-use boresight_core::error::check_range;
 use boresight_core::{Array, Complex64};
+use boresight_math::error::check_range;
 use ndarray::{ArrayView3, s};
 use std::sync::Arc;
 
@@ -28,7 +28,7 @@ impl Estimators {
     /// As [`Estimator::new`], for up to `threads` threads: 1 where there are none, as in WebAssembly.
     ///
     /// # Errors
-    /// As [`Estimator::new`]; [`boresight_core::CoreError::OutOfRange`] for no threads, or more than 1024.
+    /// As [`Estimator::new`]; [`boresight_core::InputError::OutOfRange`] for no threads, or more than 1024.
     pub fn new(
         method: Method,
         array: &Array,
@@ -43,7 +43,7 @@ impl Estimators {
     /// As [`Estimator::counted`], for up to `threads` threads.
     ///
     /// # Errors
-    /// As [`Estimator::counted`]; [`boresight_core::CoreError::OutOfRange`] for no threads, or more than 1024.
+    /// As [`Estimator::counted`]; [`boresight_core::InputError::OutOfRange`] for no threads, or more than 1024.
     pub fn counted(
         method: Method,
         array: &Array,
@@ -59,7 +59,7 @@ impl Estimators {
     /// A thread for each estimator, all of one kind.
     ///
     /// # Errors
-    /// [`boresight_core::CoreError::OutOfRange`] for none, or more than 1024.
+    /// [`boresight_core::InputError::OutOfRange`] for none, or more than 1024.
     pub fn of(estimators: Vec<Estimator>) -> Result<Self, AoaError> {
         check_range("threads", estimators.len() as f64, 1.0, 1024.0)?;
         let worker = |estimator: Estimator| {

@@ -3,9 +3,9 @@
 
 use crate::bounds::Signals;
 use crate::error::AoaError;
-use boresight_core::linalg::{Cholesky, adjoint, least_squares};
 use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Direction};
+use boresight_math::linalg::{Cholesky, adjoint, least_squares};
 use ndarray::{Array2, s};
 use std::f64::consts::PI;
 

@@ -9,13 +9,14 @@
 pub mod esprit_error;
 
 use crate::error::AoaError;
-use boresight_core::describe::{Described, columns};
-use boresight_core::error::{check_finite, check_positive};
 use boresight_core::limits::check_operations;
-use boresight_core::linalg::{Cholesky, adjoint, least_squares};
-use boresight_core::steering::{cis, steering_derivatives, steering_matrix};
-use boresight_core::units::{db_to_amplitude, db_to_power};
-use boresight_core::{Array, Complex64, CoreError, Direction, Extent};
+use boresight_core::steering::{steering_derivatives, steering_matrix};
+use boresight_core::{Array, Complex64, Direction, Extent, InputError};
+use boresight_math::decibels::{db_to_amplitude, db_to_power};
+use boresight_math::error::{check_finite, check_positive};
+use boresight_math::linalg::{Cholesky, adjoint, least_squares};
+use boresight_math::phasor::cis;
+use boresight_options::{Described, columns};
 use ndarray::{Array1, Array2, ArrayView2};
 use serde::{Deserialize, Serialize};
 
@@ -116,7 +117,7 @@ impl Signals<'_> {
         if directions.is_empty() || self.snapshots == 0 {
             let what = if directions.is_empty() { "directions" } else { "snapshots" };
             let expected = "at least one".into();
-            return Err(CoreError::Empty { what: what.into(), expected }.into());
+            return Err(InputError::Empty { what: what.into(), expected }.into());
         }
         directions.iter().try_for_each(|direction| direction.check())?;
         let count = directions.len();
@@ -125,7 +126,7 @@ impl Signals<'_> {
             return Err(AoaError::TooManySources { method: "the bound", most, given: count });
         }
         if self.covariance.dim() != (count, count) {
-            return Err(AoaError::Argument(CoreError::Shape {
+            return Err(AoaError::Argument(InputError::Shape {
                 what: "signal covariance".into(),
                 expected: format!("[{count}, {count}], one row a direction"),
                 given: self.covariance.shape().to_vec(),
@@ -156,7 +157,7 @@ pub fn single_snapshot(amplitudes: &[Complex64]) -> Array2<Complex64> {
 /// Bound for signals that are unknown constants.
 ///
 /// # Errors
-/// [`CoreError`] for empty, misshapen or non-finite arguments, [`AoaError::TooManySources`] unless
+/// [`InputError`] for empty, misshapen or non-finite arguments, [`AoaError::TooManySources`] unless
 /// there are fewer directions than elements.
 pub fn deterministic_bound(
     array: &Array,
@@ -225,7 +226,7 @@ fn slopes_off_signal(
     array: &Array,
     directions: &[Direction],
     angles: usize,
-) -> Result<Option<Array2<Complex64>>, CoreError> {
+) -> Result<Option<Array2<Complex64>>, InputError> {
     let steering = steering_matrix(array, directions);
     let mut slopes = Array2::zeros((array.len(), angles));
     for (i, &direction) in directions.iter().enumerate() {

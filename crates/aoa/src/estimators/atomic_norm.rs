@@ -164,7 +164,8 @@ mod tests {
     use boresight_core::Direction;
     use boresight_core::Random;
     use boresight_core::presets::preset;
-    use boresight_core::steering::{cis, steering_vector};
+    use boresight_core::steering::steering_vector;
+    use boresight_math::phasor::cis;
     use serde::Deserialize;
 
     fn plan(array: &Array) -> AtomicNorm {

@@ -11,8 +11,8 @@ use crate::options::EstimatorOptions;
 use crate::plan::Plan;
 use crate::spectra::peaks::PeakFinder;
 use crate::spectra::quadratic::{QuadraticSpectrum, Towards};
-use boresight_core::linalg::Cholesky;
 use boresight_core::{Array, Complex64};
+use boresight_math::linalg::Cholesky;
 use boresight_signal::load_diagonal;
 use ndarray::Array2;
 

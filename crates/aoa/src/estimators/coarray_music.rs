@@ -18,10 +18,10 @@ use crate::order::counting::Counting;
 use crate::plan::Plan;
 use crate::spectra::null_spectrum::NullSpectrum;
 use crate::suits::longest_lag;
-use boresight_core::linalg::{hermitian_eigen, least_squares};
-use boresight_core::order::descending;
-use boresight_core::steering::cis;
 use boresight_core::{Array, Complex64, Direction, Lattice};
+use boresight_math::linalg::{hermitian_eigen, least_squares};
+use boresight_math::order::descending;
+use boresight_math::phasor::cis;
 use ndarray::{Array2, Axis};
 use std::f64::consts::PI;
 
@@ -174,8 +174,8 @@ mod tests {
     use crate::estimator::Estimator;
     use crate::options::SourceCount;
     use boresight_core::Random;
-    use boresight_core::linalg::adjoint;
     use boresight_core::steering::steering_matrix;
+    use boresight_math::linalg::adjoint;
     use ndarray::Array1;
 
     fn sparse(places: &[f64]) -> Array {

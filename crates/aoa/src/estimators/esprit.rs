@@ -10,8 +10,8 @@ use crate::model::powers::sources_at;
 use crate::model::subspace::SubspacePlan;
 use crate::options::{EspritForm, EstimatorOptions};
 use crate::plan::Plan;
-use boresight_core::linalg::{adjoint, eigenvalues, hermitian_eigen, solve};
-use boresight_core::{Array, Complex64, CoreError, Direction};
+use boresight_core::{Array, Complex64, Direction, InputError};
+use boresight_math::linalg::{adjoint, eigenvalues, hermitian_eigen, solve};
 use ndarray::{Array2, ArrayView2, s};
 
 /// The signal subspace seen by all elements but the last and by all but the first differ by a
@@ -80,7 +80,7 @@ impl Plan for Esprit {
 type Halves<'a> = [ArrayView2<'a, Complex64>; 2];
 
 /// The `F` that minimises `|E1 F - E2|`.
-fn least_squares_rotation([e1, e2]: Halves<'_>) -> Result<Option<Array2<Complex64>>, CoreError> {
+fn least_squares_rotation([e1, e2]: Halves<'_>) -> Result<Option<Array2<Complex64>>, InputError> {
     let transposed = adjoint(e1);
     solve(transposed.dot(&e1).view(), transposed.dot(&e2).view())
 }
@@ -88,7 +88,7 @@ fn least_squares_rotation([e1, e2]: Halves<'_>) -> Result<Option<Array2<Complex6
 /// `-V1 V2^-1`, with `V1` over `V2` spanning what is least in `[E1 E2]`.
 fn total_least_squares_rotation(
     halves: Halves<'_>,
-) -> Result<Option<Array2<Complex64>>, CoreError> {
+) -> Result<Option<Array2<Complex64>>, InputError> {
     let [e1, e2] = halves;
     let count = e1.ncols();
     let mut pair = Array2::zeros((e1.nrows(), 2 * count));

@@ -20,8 +20,8 @@ use crate::order::residual_count::ResidualCount;
 use crate::plan::Plan;
 use crate::refinement::gauss_newton::{Limits, Refined, refine_points};
 use crate::spectra::quadratic::QuadraticSpectrum;
-use boresight_core::linalg::hermitian_eigen;
 use boresight_core::{Array, Complex64};
+use boresight_math::linalg::hermitian_eigen;
 use ndarray::Array2;
 
 /// Most sources searched for; keeps the search bounded on large arrays.

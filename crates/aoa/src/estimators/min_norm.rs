@@ -39,7 +39,7 @@ impl Plan for MinNorm {
     fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
         let basis = self.subspace.basis(data)?;
         let vector = shortest_noise_vector(&basis).insert_axis(Axis(1));
-        let form = vector.dot(&boresight_core::linalg::adjoint(vector.view()));
+        let form = vector.dot(&boresight_math::linalg::adjoint(vector.view()));
         let (spectrum, directions) = self.nulls.search(form.view(), basis.ncols());
         let sources = sources_at(&self.array, &directions, data);
         let warnings = self.ambiguity.iter().cloned().collect();

@@ -9,9 +9,9 @@ use crate::model::powers::sources_at;
 use crate::model::subspace::{SubspacePlan, noise_projector};
 use crate::options::EstimatorOptions;
 use crate::plan::Plan;
-use boresight_core::linalg::polynomial_roots;
-use boresight_core::order::sort_descending;
 use boresight_core::{Array, Complex64, Direction, Lattice};
+use boresight_math::linalg::polynomial_roots;
+use boresight_math::order::sort_descending;
 use ndarray::Array2;
 
 /// Longest lattice whose polynomial is solved.

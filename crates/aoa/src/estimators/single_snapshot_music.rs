@@ -13,8 +13,8 @@ use crate::order::counting::CountSizes;
 use crate::order::counting::Counting;
 use crate::plan::Plan;
 use crate::spectra::null_spectrum::NullSpectrum;
-use boresight_core::error::check_range;
 use boresight_core::{Array, Complex64};
+use boresight_math::error::check_range;
 use boresight_signal::{forward_backward, sample_covariance};
 use ndarray::{Array2, ArrayView1};
 

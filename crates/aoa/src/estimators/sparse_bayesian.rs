@@ -31,9 +31,9 @@ use crate::plan::Plan;
 use crate::spectra::dense_grid::DenseGrid;
 use crate::spectra::peaks::{PeakFinder, wrap};
 use crate::spectra::quadratic::QuadraticSpectrum;
-use boresight_core::linalg::{Cholesky, adjoint, hermitian_eigen};
-use boresight_core::order::sort_descending;
 use boresight_core::{Array, Complex64, Direction, Lattice};
+use boresight_math::linalg::{Cholesky, adjoint, hermitian_eigen};
+use boresight_math::order::sort_descending;
 use ndarray::{Array1, Array2};
 use std::f64::consts::FRAC_PI_2;
 
@@ -325,7 +325,7 @@ fn highest_peaks(alpha: &[f64], most: usize) -> Vec<usize> {
         .collect();
     sort_descending(&mut peaks, |&g| alpha[g]);
     peaks.truncate(most);
-    boresight_core::order::sort_by(&mut peaks, Ord::cmp);
+    boresight_math::order::sort_by(&mut peaks, Ord::cmp);
     peaks
 }
 
@@ -389,7 +389,7 @@ mod tests {
         let mut random = Random::new(81, snapshots as u64);
         let at: Vec<Direction> = sines.iter().map(|u| Direction::azimuth(u.asin())).collect();
         let s = Array2::from_shape_fn((at.len(), snapshots), |_| {
-            boresight_core::steering::cis(random.phase())
+            boresight_math::phasor::cis(random.phase())
         });
         let n = Array2::from_shape_fn((array.len(), snapshots), |_| random.complex_normal(noise));
         steering_matrix(array, &at).dot(&s) + n

@@ -7,7 +7,7 @@
 //! scaled to equal noise.
 
 use boresight_core::array::Position;
-use boresight_core::{Array, Complex64, CoreError};
+use boresight_core::{Array, Complex64, InputError};
 use ndarray::{Array2, ArrayView2, Axis};
 
 /// Largest distance of elements that count as coincident, half wavelengths. Array calibration moves elements apart by less. The
@@ -34,7 +34,7 @@ impl Coincident {
     ///
     /// # Errors
     /// Those of [`Array::new`].
-    pub fn new(array: &Array) -> Result<Option<Self>, CoreError> {
+    pub fn new(array: &Array) -> Result<Option<Self>, InputError> {
         let near = NEAR.min(NEAR_SHARE * array.aperture() / array.len() as f64);
         let mut groups: Vec<Vec<Position>> = Vec::new();
         let mut place = Vec::with_capacity(array.len());

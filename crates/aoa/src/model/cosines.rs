@@ -1,8 +1,8 @@
 //! Directions as direction cosines along y and z, in which phases are all but linear.
 
 use crate::spectra::peaks::wrap;
-use boresight_core::steering::cis;
 use boresight_core::{Array, Complex64, Direction, Extent, Lattice};
+use boresight_math::phasor::cis;
 use std::f64::consts::PI;
 
 /// A direction: cosines along y and z. The second is 0 for arrays that see azimuth only.

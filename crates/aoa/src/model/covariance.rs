@@ -6,8 +6,8 @@ use crate::method::Method;
 use crate::options::EstimatorOptions;
 use crate::order::counting::CountSizes;
 use crate::suits::too_few;
-use boresight_core::error::check_range;
-use boresight_core::{Array, Complex64, CoreError};
+use boresight_core::{Array, Complex64, InputError};
+use boresight_math::error::check_range;
 use boresight_signal::{SignalError, forward_backward, load_diagonal, sample_covariance};
 use ndarray::Array2;
 
@@ -41,7 +41,7 @@ impl Prepared {
     /// Takes a Hermitian matrix and checks that its powers can be worked with.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] if they are not.
+    /// [`InputError::OutOfRange`] if they are not.
     pub fn new(
         matrix: Array2<Complex64>,
         sizes: CountSizes,
@@ -49,7 +49,7 @@ impl Prepared {
     ) -> Result<Self, AoaError> {
         let power = matrix.diag().iter().map(|z| z.re).sum::<f64>() / matrix.nrows() as f64;
         if power.is_nan() || power > MAX_POWER {
-            return Err(AoaError::Argument(CoreError::OutOfRange {
+            return Err(AoaError::Argument(InputError::OutOfRange {
                 what: "mean element power".into(),
                 expected: format!("at most {MAX_POWER:e}"),
                 given: power,
@@ -100,7 +100,7 @@ impl CovariancePlan {
     /// The covariance of `data`.
     ///
     /// # Errors
-    /// [`AoaError::Snapshots`] if there are too few for the method, [`CoreError::OutOfRange`] if
+    /// [`AoaError::Snapshots`] if there are too few for the method, [`InputError::OutOfRange`] if
     /// the powers overflow.
     pub fn prepare(&self, data: Data<'_>) -> Result<Prepared, AoaError> {
         let snapshots = data.snapshots();
@@ -116,7 +116,7 @@ impl CovariancePlan {
         let mut matrix = match data {
             Data::Snapshots(y) => sample_covariance(y),
             Data::Covariance { matrix, .. } => {
-                let reversed = boresight_core::linalg::adjoint(matrix);
+                let reversed = boresight_math::linalg::adjoint(matrix);
                 (reversed + matrix).mapv(|z| z * 0.5)
             }
         };
@@ -127,7 +127,7 @@ impl CovariancePlan {
             matrix = boresight_signal::spatial_smoothing(matrix.view(), self.array.len()).map_err(
                 |error| match error {
                     SignalError::Argument(error) => AoaError::Argument(error),
-                    other => AoaError::Argument(CoreError::Shape {
+                    other => AoaError::Argument(InputError::Shape {
                         what: other.to_string(),
                         expected: "a covariance that can be smoothed".into(),
                         given: vec![self.array.len()],

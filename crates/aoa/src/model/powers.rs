@@ -2,9 +2,9 @@
 
 use crate::data::Data;
 use crate::estimate::Source;
-use boresight_core::linalg::{adjoint, least_squares};
 use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Complex64, Direction};
+use boresight_math::linalg::{adjoint, least_squares};
 use ndarray::ArrayView2;
 
 /// Sources at `directions`, with the amplitude (one snapshot) or power (several snapshots, or a

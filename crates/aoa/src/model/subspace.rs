@@ -7,8 +7,8 @@ use crate::method::Method;
 use crate::model::covariance::{CovariancePlan, Prepared};
 use crate::options::EstimatorOptions;
 use crate::order::counting::Counting;
-use boresight_core::linalg::{adjoint, leading_hermitian_eigen_by};
 use boresight_core::{Array, Complex64};
+use boresight_math::linalg::{adjoint, leading_hermitian_eigen_by};
 use ndarray::Array2;
 
 /// How a method gets its signal subspace.

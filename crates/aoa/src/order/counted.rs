@@ -8,7 +8,7 @@ use crate::method::Method;
 use crate::options::{EstimatorOptions, SourceCount};
 use crate::plan::Plan;
 use boresight_core::Array;
-use boresight_core::describe::{Described, columns};
+use boresight_options::{Described, columns};
 use serde::Serialize;
 use std::sync::Arc;
 

@@ -6,9 +6,9 @@ use crate::data::Data;
 use crate::error::AoaError;
 use crate::options::{EstimatorOptions, SourceCount, mismatch_of};
 use crate::order::largest_root::{Freedom, level};
-use boresight_core::describe::{self, Described, Naming};
 use boresight_core::limits::check_operations;
-use boresight_core::linalg::hermitian_eigen;
+use boresight_math::linalg::hermitian_eigen;
+use boresight_options::{Described, Naming, check};
 use boresight_signal::{forward_backward, sample_covariance};
 use serde::{Deserialize, Serialize};
 
@@ -198,13 +198,13 @@ pub fn most_by_mismatch(eigenvalues: &[f64], mismatch: f64) -> usize {
 ///
 /// # Errors
 /// As [`Data::check`]; [`AoaError::Snapshots`] for a single vector, in which no criterion can tell sources from noise;
-/// [`boresight_core::CoreError::OutOfRange`] for an option out of range;
-/// [`boresight_core::CoreError::TooLarge`] for what takes more than the limits of this thread.
+/// [`boresight_core::InputError::OutOfRange`] for an option out of range;
+/// [`boresight_core::InputError::TooLarge`] for what takes more than the limits of this thread.
 pub fn count_sources_in(
     data: Data<'_>,
     options: &CountOptions,
 ) -> Result<(Vec<f64>, Count), AoaError> {
-    describe::check(options, Naming::Rust)?;
+    check(options, Naming::Rust)?;
     let CountOptions { criterion, false_alarm, forward_backward: average_reversed, mismatch_db } =
         *options;
     let elements = match data {

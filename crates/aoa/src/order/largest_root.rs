@@ -120,7 +120,7 @@ fn bisect(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
 mod tests {
     use super::*;
     use boresight_core::Random;
-    use boresight_core::linalg::hermitian_eigen;
+    use boresight_math::linalg::hermitian_eigen;
     use boresight_signal::{forward_backward, sample_covariance};
     use ndarray::Array2;
 

@@ -132,10 +132,10 @@ mod tests {
     use crate::estimator::Estimator;
     use crate::method::Method;
     use crate::options::SourceCount;
-    use boresight_core::linalg::adjoint;
     use boresight_core::presets::preset;
     use boresight_core::steering::steering_matrix;
     use boresight_core::{Direction, Random};
+    use boresight_math::linalg::adjoint;
     use ndarray::Array2;
 
     /// Snapshots of targets at these azimuths (deg), of power 1 at random phases, in noise of power 1 / `snr`.

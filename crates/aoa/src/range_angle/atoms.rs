@@ -2,7 +2,7 @@
 //! transform) and one along the array (its elements).
 
 use boresight_core::Complex64;
-use boresight_core::steering::cis;
+use boresight_math::phasor::cis;
 use ndarray::{Array2, ArrayView3};
 use std::f64::consts::{PI, TAU};
 

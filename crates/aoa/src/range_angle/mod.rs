@@ -16,8 +16,8 @@ use crate::estimate::Warning;
 use crate::options::{EstimatorOptions, SourceCount};
 use crate::order::false_alarm::{Shares, Volumes};
 use atoms::Atoms;
-use boresight_core::order::sort_descending;
-use boresight_core::{Array, Complex32, Complex64, CoreError, Extent};
+use boresight_core::{Array, Complex32, Complex64, Extent, InputError};
+use boresight_math::order::sort_descending;
 use ndarray::{Array3, ArrayView3};
 use refine::{Fit, Model, Refined};
 use search::{Search, Seen};
@@ -90,8 +90,8 @@ impl RangeAngle {
     ///
     /// # Errors
     /// [`AoaError::Array`] for an array with an extent in elevation, [`AoaError::TooManySources`] for more than
-    /// [`MAX_TARGETS`], [`CoreError::OutOfRange`] for other options out of range and for regions larger than the
-    /// transform, [`CoreError::Incompatible`] for another way to count.
+    /// [`MAX_TARGETS`], [`InputError::OutOfRange`] for other options out of range and for regions larger than the
+    /// transform, [`InputError::Incompatible`] for another way to count.
     pub fn new(
         array: &Array,
         samples: usize,
@@ -99,7 +99,7 @@ impl RangeAngle {
         options: &EstimatorOptions,
     ) -> Result<Self, AoaError> {
         options.check()?;
-        boresight_core::error::check_range("region bins", bins as f64, 1.0, samples as f64)?;
+        boresight_math::error::check_range("region bins", bins as f64, 1.0, samples as f64)?;
         if array.extent() == Extent::Area {
             return Err(AoaError::Array {
                 method: NAME,
@@ -118,7 +118,7 @@ impl RangeAngle {
             SourceCount::Known(sources) => sources,
             SourceCount::Auto => MAX_TARGETS,
             other => {
-                return Err(AoaError::Argument(CoreError::Incompatible {
+                return Err(AoaError::Argument(InputError::Incompatible {
                     what: "sources of joint range-angle estimation".into(),
                     expected: "a number or auto".into(),
                     given: format!("{other:?}"),
@@ -148,8 +148,8 @@ impl RangeAngle {
     /// [`boresight_signal::region::crop_region`]. Bins that are entirely zero are treated as missing.
     ///
     /// # Errors
-    /// [`CoreError::Shape`] for another shape than planned or no chirps, [`CoreError::NotFinite`] for values that are
-    /// not finite, [`CoreError::OutOfRange`] for more chirps than fit in memory.
+    /// [`InputError::Shape`] for another shape than planned or no chirps, [`InputError::NotFinite`] for values that are
+    /// not finite, [`InputError::OutOfRange`] for more chirps than fit in memory.
     pub fn estimate(
         &mut self,
         region: ArrayView3<'_, Complex32>,
@@ -238,21 +238,21 @@ impl RangeAngle {
         let (bins, elements, chirps) = region.dim();
         let planned = (self.atoms.bins, self.atoms.positions.len());
         if (bins, elements) != planned || chirps == 0 {
-            return Err(AoaError::Argument(CoreError::Shape {
+            return Err(AoaError::Argument(InputError::Shape {
                 what: "region".into(),
                 expected: format!("[{}, {}, chirps]", planned.0, planned.1),
                 given: vec![bins, elements, chirps],
             }));
         }
         let most = MAX_CELLS as f64 / self.search.len().max(1) as f64;
-        boresight_core::error::check_range("region chirps", chirps as f64, 1.0, most)?;
+        boresight_math::error::check_range("region chirps", chirps as f64, 1.0, most)?;
         let of_parts = |(index, z): (usize, &Complex32)| {
             let given = if z.re.is_finite() { z.im } else { z.re };
             (!given.is_finite()).then_some((index, f64::from(given)))
         };
         if let Some((index, given)) = region.iter().enumerate().find_map(of_parts) {
             let what = "region".into();
-            return Err(AoaError::Argument(CoreError::NotFinite { what, index, given }));
+            return Err(AoaError::Argument(InputError::NotFinite { what, index, given }));
         }
         Ok(region.mapv(|z| Complex64::new(z.re.into(), z.im.into())))
     }

@@ -10,7 +10,7 @@ use super::LEAST_LEFT;
 use super::Place;
 use super::atoms::{Atoms, Response, correlate, inner};
 use boresight_core::Complex64;
-use boresight_core::linalg::Cholesky;
+use boresight_math::linalg::Cholesky;
 use ndarray::{Array1, Array2, ArrayView3};
 
 /// Minimum fraction of a response's power in the bins that are present.

@@ -8,7 +8,7 @@ use super::atoms::{Atoms, correlate, inner, table};
 use super::refine::Model;
 use super::{LEAST_LEFT, Place};
 use boresight_core::Complex64;
-use boresight_core::linalg::Cholesky;
+use boresight_math::linalg::Cholesky;
 use ndarray::{Array1, Array2, Array3, ArrayView1, ArrayView3, Axis};
 
 /// Grid points per range bin and per beamwidth.

@@ -9,8 +9,8 @@
 
 use crate::data::Data;
 use crate::model::cosines::{Geometry, Point, Steering};
-use boresight_core::linalg::{Cholesky, adjoint};
-use boresight_core::{Array, Complex64, CoreError, Direction};
+use boresight_core::{Array, Complex64, Direction, InputError};
+use boresight_math::linalg::{Cholesky, adjoint};
 use ndarray::{Array1, Array2, ArrayView1};
 
 /// When refinement ends.
@@ -42,8 +42,8 @@ pub struct Refined {
 /// not converged, with all of the power as residual.
 ///
 /// # Errors
-/// As [`Data::check`]; [`CoreError::OutOfRange`] for a direction more than a quarter turn off
-/// boresight; [`CoreError::Empty`] for none.
+/// As [`Data::check`]; [`InputError::OutOfRange`] for a direction more than a quarter turn off
+/// boresight; [`InputError::Empty`] for none.
 pub fn refine(
     array: &Array,
     directions: &[Direction],
@@ -52,7 +52,7 @@ pub fn refine(
 ) -> Result<Refined, crate::error::AoaError> {
     data.check(array.len())?;
     if directions.is_empty() {
-        return Err(CoreError::Empty {
+        return Err(InputError::Empty {
             what: "directions to refine".into(),
             expected: "at least one".into(),
         }

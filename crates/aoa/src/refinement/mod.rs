@@ -40,7 +40,7 @@ impl Refinement {
     /// are kept in the same order. Of more directions than half the elements the first are taken.
     ///
     /// # Errors
-    /// As [`Data::check`]; [`boresight_core::CoreError::OutOfRange`] for a direction more than a
+    /// As [`Data::check`]; [`boresight_core::InputError::OutOfRange`] for a direction more than a
     /// quarter turn off boresight.
     pub fn refine(
         &mut self,

@@ -2,8 +2,8 @@
 //! along equal lags, and its refinement at a cost of one lag after the other.
 
 use crate::spectra::quadratic::Towards;
-use boresight_core::steering::cis;
 use boresight_core::{Complex64, Lattice};
+use boresight_math::phasor::cis;
 use ndarray::ArrayView2;
 use std::f64::consts::PI;
 
@@ -86,9 +86,9 @@ impl LagPolynomial {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use boresight_core::linalg::adjoint;
     use boresight_core::steering::steering_vector;
     use boresight_core::{Array, Direction, Random};
+    use boresight_math::linalg::adjoint;
     use ndarray::Array2;
 
     #[test]

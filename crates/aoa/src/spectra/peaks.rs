@@ -85,7 +85,7 @@ impl PeakFinder {
                 }
             }
         }
-        boresight_core::order::sort_in_place(peaks, |p, q| {
+        boresight_math::order::sort_in_place(peaks, |p, q| {
             q.value.total_cmp(&p.value).then(p.index.cmp(&q.index)).is_lt()
         });
         self.within_one_period(grid, peaks);

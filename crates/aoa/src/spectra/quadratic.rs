@@ -8,9 +8,10 @@
 use crate::estimators::iaa::fourier::{LagTransforms, LatticeFourier};
 use crate::grid::Grid;
 use crate::spectra::lags::LagPolynomial;
-use boresight_core::order::ascending;
-use boresight_core::steering::{cis, steering_derivatives, steering_vector};
+use boresight_core::steering::{steering_derivatives, steering_vector};
 use boresight_core::{Array, Complex64, Direction, Extent, Lattice};
+use boresight_math::order::ascending;
+use boresight_math::phasor::cis;
 use boresight_signal::sample_covariance;
 use ndarray::{Array1, ArrayView2};
 use std::f64::consts::PI;
@@ -359,8 +360,8 @@ mod tests {
     use super::*;
     use crate::options::EstimatorOptions;
     use boresight_core::Random;
-    use boresight_core::linalg::adjoint;
     use boresight_core::presets::preset;
+    use boresight_math::linalg::adjoint;
     use ndarray::Array2;
 
     fn random_form(n: usize, random: &mut Random) -> Array2<Complex64> {

@@ -1,9 +1,9 @@
 //! What `log`, `calibrate` and `odometry` take.
 
 use crate::flags::{Flags, OnCommandLine};
-use boresight_calibrate::{CalibrationOptions, SignOptions};
-use boresight_core::describe::Named;
 use boresight_formats::{DriveFormat, TopicOptions};
+use boresight_mounting::{CalibrationOptions, SignOptions};
+use boresight_options::Named;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use std::path::PathBuf;

@@ -2,10 +2,10 @@
 
 use super::drives::formats;
 use crate::flags::{Flags, OnCommandLine};
-use boresight_calibrate::{CalibrationOptions, SignOptions};
 use boresight_fleet::FleetOptions;
 use boresight_fleet::Part;
 use boresight_formats::TopicOptions;
+use boresight_mounting::{CalibrationOptions, SignOptions};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -114,7 +114,7 @@ pub enum WhichPart {
 }
 
 impl FromStr for WhichPart {
-    type Err = boresight_core::CoreError;
+    type Err = boresight_core::InputError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         if text == "auto" { Ok(Self::Auto) } else { text.parse().map(Self::Given) }

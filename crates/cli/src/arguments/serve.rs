@@ -2,8 +2,8 @@
 
 use super::LogPaths;
 use crate::flags::{Flags, OnCommandLine};
-use boresight_calibrate::CalibrationOptions;
 use boresight_live::foxglove::ServeOptions;
+use boresight_mounting::CalibrationOptions;
 use clap::Args;
 use std::path::PathBuf;
 

@@ -12,10 +12,10 @@ use crate::run::Run;
 use boresight_array_calibration::{
     CalibrationOptions, CalibrationResult, CheckFigures, SteeringTable,
 };
-use boresight_core::describe::Named;
-use boresight_core::units::power_to_db;
 use boresight_core::{Array, ArrayCalibration};
 use boresight_formats::{RadarConfig, json};
+use boresight_math::decibels::power_to_db;
+use boresight_options::Named;
 use boresight_pipeline::array_calibration::{CalibrationFrames, calibrate_array};
 use boresight_pipeline::{CubeFrames, FrameSource};
 use std::ops::Range;

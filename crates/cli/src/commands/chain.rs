@@ -6,7 +6,7 @@ use crate::commands::frame::frame_within;
 use crate::error::CliError;
 use crate::output::{Column, Table, remark};
 use crate::run::Run;
-use boresight_core::units::power_to_db;
+use boresight_math::decibels::power_to_db;
 use boresight_pipeline::{Chain, ChainOptions, Detection, FrameResult, FrameSource};
 
 /// Options of the chain, on all processor cores.

@@ -6,7 +6,7 @@ use crate::arguments::{EstimateArguments, RadarArguments};
 use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::{array, network};
-use boresight_core::{Complex32, CoreError, Waveform};
+use boresight_core::{Complex32, InputError, Waveform};
 use boresight_formats::{NpyArray, RadarConfig};
 use boresight_pipeline::CubeFrames;
 use ndarray::{Array5, Axis};
@@ -60,7 +60,7 @@ pub fn read(file: &NpyArray) -> Result<Array5<Complex32>, CliError> {
     if shape.len() == 4 {
         shape.insert(0, 1);
     }
-    let wrong = || CoreError::Shape {
+    let wrong = || InputError::Shape {
         what: "the array".into(),
         expected: "1 to 3 axes (snapshots), or 4 or 5 (a data cube)".into(),
         given: file.shape.clone(),

@@ -4,7 +4,7 @@ use crate::arguments::EstimateArguments;
 use crate::commands::frame::frame_within;
 use crate::error::CliError;
 use crate::run::Run;
-use boresight_core::describe::decibels::finite_db;
+use boresight_options::decibels::finite_db;
 use boresight_pipeline::{CellExplanation, Chain, FrameSource};
 use serde_json::json;
 

@@ -8,12 +8,12 @@ use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::output::remark;
 use crate::terminal::one_line;
-use boresight_calibrate::CalibrationOptions;
-use boresight_calibrate::signs::{SignFindings, find_signs};
-use boresight_core::describe::Named;
 use boresight_core::drive::DriveLog;
 use boresight_formats::drive_log::table::{write_detections, write_motion};
 use boresight_formats::{DriveRead, DriveTopic, MountingSource, json};
+use boresight_mounting::CalibrationOptions;
+use boresight_mounting::signs::{SignFindings, find_signs};
+use boresight_options::Named;
 use serde_json::{Map, Value, json};
 use std::io::{BufWriter, Write};
 

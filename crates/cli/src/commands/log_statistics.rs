@@ -1,10 +1,10 @@
 //! `boresight log --statistics`: what the radars of a log are like.
 
 use crate::error::CliError;
-use boresight_calibrate::CalibrationOptions;
-use boresight_calibrate::statistics::{SensorStatistics, log_statistics};
 use boresight_core::drive::DriveLog;
 use boresight_formats::json;
+use boresight_mounting::CalibrationOptions;
+use boresight_mounting::statistics::{SensorStatistics, log_statistics};
 
 /// A row of the table: its name with its unit, its digits after the point, and its number.
 type Row = (&'static str, usize, fn(&SensorStatistics) -> f64);

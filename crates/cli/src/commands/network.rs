@@ -4,7 +4,7 @@ use crate::arguments::TellArguments;
 use crate::error::CliError;
 use crate::files::Files;
 use crate::network;
-use boresight_core::describe::Named;
+use boresight_options::Named;
 
 /// What a model is, by its file and its card.
 pub fn run(arguments: &TellArguments, files: &Files) -> Result<String, CliError> {

@@ -8,10 +8,10 @@ use crate::error::CliError;
 use crate::files::Files;
 use crate::output::remark;
 use crate::run::Run;
-use boresight_calibrate::fusion::{FusedMotion, Fusion, FusionCounts, Mounted};
-use boresight_calibrate::trajectory::TimedMotion;
-use boresight_calibrate::{AngleEstimate, CalibrationOptions, Joint, MotionMethod};
 use boresight_core::drive::{DriveLog, Sensor};
+use boresight_mounting::fusion::{FusedMotion, Fusion, FusionCounts, Mounted};
+use boresight_mounting::trajectory::TimedMotion;
+use boresight_mounting::{AngleEstimate, CalibrationOptions, Joint, MotionMethod};
 use serde_json::json;
 
 /// Lengths of the segments that trajectories are compared over, m.

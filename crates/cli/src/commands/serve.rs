@@ -8,11 +8,11 @@ use crate::files::Files;
 use crate::output::remark;
 use crate::run::Run;
 use crate::terminal::report;
-use boresight_calibrate::CalibrationOptions;
 use boresight_core::Progress;
 use boresight_formats::json;
 use boresight_live::foxglove::play::Setup;
 use boresight_live::foxglove::{Counts, Play, Server};
+use boresight_mounting::CalibrationOptions;
 
 /// Serves until Ctrl-C; what became of connections and messages, as text or JSON.
 pub fn run(arguments: &ServeArguments, files: &Files) -> Result<String, CliError> {

@@ -6,7 +6,7 @@ use crate::files::{self, Files};
 use crate::run::Run;
 use crate::terminal::name;
 use boresight_core::Progress;
-use boresight_core::describe::{Named, naming};
+use boresight_options::{Named, naming};
 use boresight_simulate::SimulateError;
 use boresight_simulate::drive::dataset::{Condition, Dataset, DatasetOptions, WINDOW, file};
 use serde_json::{Value, json};

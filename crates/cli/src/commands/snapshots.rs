@@ -7,9 +7,9 @@ use crate::files::Files;
 use crate::output::{Column, Table, remark};
 use crate::{array, network};
 use boresight_aoa::{Data, Method};
-use boresight_core::units::power_to_db;
-use boresight_core::{Complex64, CoreError};
+use boresight_core::{Complex64, InputError};
 use boresight_formats::NpyArray;
+use boresight_math::decibels::power_to_db;
 use boresight_pipeline::AngleOptions;
 use ndarray::{Array3, Axis};
 
@@ -22,7 +22,7 @@ pub fn scenes(file: &NpyArray) -> Result<Array3<Complex64>, CliError> {
         _ => [0; 3],
     };
     Array3::from_shape_vec(shape, file.to_complex64()).map_err(|_| {
-        CoreError::Shape {
+        InputError::Shape {
             what: "snapshots".into(),
             expected: "1 to 3 axes".into(),
             given: file.shape.clone(),

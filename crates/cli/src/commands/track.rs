@@ -1,8 +1,8 @@
 //! The car's way as a radar saw it, held against the poses of the log.
 
-use boresight_calibrate::trajectory::{TimedMotion, integrate, relative_error};
-use boresight_calibrate::{CalibrationOptions, FrameOutcome};
 use boresight_core::drive::{DriveLog, Pose};
+use boresight_mounting::trajectory::{TimedMotion, integrate, relative_error};
+use boresight_mounting::{CalibrationOptions, FrameOutcome};
 
 /// The radar's motion and the car's logged pose, frame by frame.
 #[derive(Debug, Clone, Default)]

@@ -21,7 +21,7 @@ mod sums;
 mod weights;
 
 use crate::fleet::{Drift, Knock};
-use boresight_calibrate::wrap;
+use boresight_mounting::wrap;
 use mixture::{Term, half_width, mean};
 use posterior::Posterior;
 use select::{Model, select};

@@ -2,7 +2,7 @@
 
 use super::words::{degrees, sane, shown, trimmed};
 use crate::fleet::{Fleet, Vehicle, VehicleRadar};
-use boresight_calibrate::{Alignment, wrap};
+use boresight_mounting::{Alignment, wrap};
 use boresight_report::within;
 
 /// Why a radar needs attention, the most urgent first.

@@ -3,7 +3,7 @@
 use super::words::{count, degrees, sane};
 use crate::fleet::{DriveAngle, Vehicle, VehicleRadar};
 use crate::options::FleetOptions;
-use boresight_calibrate::wrap;
+use boresight_mounting::wrap;
 use boresight_report::chart::{Chart, Mark};
 
 /// Drives that are drawn of more; beside them those next to a knock and those far off, up to `SPECIAL` each.

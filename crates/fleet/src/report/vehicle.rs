@@ -5,7 +5,7 @@ use super::words::{angle, count, degrees, sane, shown, span, trimmed};
 use super::{LIST, figure};
 use crate::fleet::{AngleSource, CarValues, Vehicle, VehicleRadar};
 use crate::options::FleetOptions;
-use boresight_calibrate::wrap;
+use boresight_mounting::wrap;
 use boresight_report::escape::escaped;
 use boresight_report::html::{phrase, table};
 use boresight_report::{Place, verdict, within};

@@ -4,7 +4,7 @@ use super::column::{Column, Of, write};
 use super::drives::{columns, degrees, finite};
 use crate::error::FleetError;
 use crate::fleet::{Fleet, Vehicle, VehicleRadar};
-use boresight_core::describe::Named;
+use boresight_options::Named;
 use std::io::Write;
 
 /// A radar of a vehicle.

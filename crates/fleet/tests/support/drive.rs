@@ -1,13 +1,13 @@
 //! Records of drives, as `fleet run` makes them, and how far what they come to is off.
 
-use boresight_calibrate::{CalibrationOptions, Car, Frames};
-use boresight_core::describe::remark::Coded;
 use boresight_core::drive::DriveLog;
 use boresight_fleet::fleet::Fleet;
 use boresight_fleet::gather::Gathered;
 use boresight_fleet::record::{Done, Frames as Counts, RadarRecord, RadarResult, Record, Warning};
 use boresight_fleet::schema::SCHEMA;
 use boresight_fleet::{FleetOptions, merge, parallel};
+use boresight_mounting::{CalibrationOptions, Car, Frames};
+use boresight_options::remark::Coded;
 
 /// The record of a drive.
 pub fn record(

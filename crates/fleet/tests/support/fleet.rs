@@ -2,12 +2,12 @@
 
 #![allow(dead_code, reason = "not every test makes every fleet")]
 
-use boresight_calibrate::Alignment;
 use boresight_core::Random;
 use boresight_fleet::fleet::{
     AngleSource, CarValues, Drift, Drive, DriveAngle, FailureCount, Fleet, FleetRadar, Knock,
     LogCounts, Vehicle, VehicleRadar,
 };
+use boresight_mounting::Alignment;
 
 const SIGMA_DEG: f64 = 0.06;
 /// 2026-01-02, s since 1970.

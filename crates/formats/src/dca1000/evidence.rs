@@ -8,9 +8,9 @@
 
 use super::{Capture, Layout};
 use crate::mmwave_cfg::RadarConfig;
-use boresight_core::fft::Transforms;
-use boresight_core::steering::cis;
 use boresight_core::{Complex32, Sampling};
+use boresight_math::fft::Transforms;
+use boresight_math::phasor::cis;
 use std::f64::consts::TAU;
 
 /// Frames looked at, spread over the capture.
@@ -124,7 +124,7 @@ impl Spectrum {
             }
         }
         let mut sorted = power.clone();
-        boresight_core::order::sort_numbers(&mut sorted);
+        boresight_math::order::sort_numbers(&mut sorted);
         let noise = sorted[samples / 2];
         (noise > 0.0).then_some(Self { power, chirps, noise })
     }

@@ -1,7 +1,7 @@
 //! Where each sample of a frame stands in its bytes.
 
 use boresight_core::Sampling;
-use boresight_core::describe::Described;
+use boresight_options::Described;
 use serde::{Deserialize, Serialize};
 
 /// Lanes of a four-lane board, whether its receivers are in use or not.

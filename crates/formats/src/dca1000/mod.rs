@@ -19,8 +19,8 @@ pub use write::write;
 
 use crate::error::FormatError;
 use crate::mmwave_cfg::RadarConfig;
-use boresight_core::error::check_range;
 use boresight_core::{Complex32, Remark, Sampling};
+use boresight_math::error::check_range;
 use ndarray::Array4;
 use std::ops::Range;
 
@@ -125,7 +125,7 @@ impl<'a> Capture<'a> {
     /// Decodes frame `index`, counted from 0.
     ///
     /// # Errors
-    /// [`boresight_core::CoreError::OutOfRange`] for an index beyond the last whole frame.
+    /// [`boresight_core::InputError::OutOfRange`] for an index beyond the last whole frame.
     pub fn frame(&self, index: usize) -> Result<RawFrame, FormatError> {
         check_range("frame", index as f64, 0.0, (self.frames() - 1) as f64)?;
         let start = index * self.frame_bytes;

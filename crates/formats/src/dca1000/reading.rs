@@ -3,7 +3,7 @@
 use super::layout::Layout;
 use crate::error::FormatError;
 use crate::mmwave_cfg::RadarConfig;
-use boresight_core::describe::Described;
+use boresight_options::Described;
 use serde::{Deserialize, Serialize};
 
 /// Order of I and Q in a capture.

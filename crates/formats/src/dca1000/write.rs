@@ -3,7 +3,7 @@
 use crate::error::FormatError;
 use crate::mmwave_cfg::RadarConfig;
 use boresight_core::limits::check_bytes;
-use boresight_core::{Complex32, CoreError, Sampling};
+use boresight_core::{Complex32, InputError, Sampling};
 use ndarray::ArrayView5;
 
 /// Writes frames x loops x transmitters x receivers x samples (full scale 1) as the bytes that [`super::Capture`]
@@ -11,8 +11,8 @@ use ndarray::ArrayView5;
 /// frames in turn.
 ///
 /// # Errors
-/// [`CoreError::Shape`] for frames of another shape than configured; those of the layout;
-/// [`CoreError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
+/// [`InputError::Shape`] for frames of another shape than configured; those of the layout;
+/// [`InputError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
 pub fn write(
     frames: ArrayView5<'_, Complex32>,
     config: &RadarConfig,
@@ -21,7 +21,7 @@ pub fn write(
     config.check_layout()?;
     let each = [waveform.loops, waveform.transmitters, config.receivers.len(), waveform.samples];
     if frames.shape()[1..] != each {
-        return Err(FormatError::Argument(CoreError::Shape {
+        return Err(FormatError::Argument(InputError::Shape {
             what: "frames".into(),
             expected: format!("any number of {each:?}"),
             given: frames.shape().to_vec(),

@@ -6,9 +6,9 @@ use super::text::{Rows, is_gzip};
 use super::{clouds, delphi, table};
 use crate::error::FormatError;
 use crate::radarscenes::{self, Companions};
-use boresight_core::CoreError;
-use boresight_core::describe::{Described, Named};
+use boresight_core::InputError;
 use boresight_core::drive::DriveLog;
+use boresight_options::{Described, Named};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -40,8 +40,8 @@ impl DriveFormat {
     /// The format of a name.
     ///
     /// # Errors
-    /// [`CoreError::Unknown`] with the names there are.
-    pub fn from_name(name: &str) -> Result<Self, CoreError> {
+    /// [`InputError::Unknown`] with the names there are.
+    pub fn from_name(name: &str) -> Result<Self, InputError> {
         Named::from_name("format", name)
     }
 }
@@ -281,7 +281,7 @@ fn open_mcap(
     let (parts, others): (Vec<_>, Vec<_>) =
         (0..files.len()).partition(|i| roles[*i] == Some(Role::Mcap));
     let mut parts: Vec<_> = parts.into_iter().map(|i| (files[i].0, i)).collect();
-    boresight_core::order::sort_by(&mut parts, Ord::cmp);
+    boresight_math::order::sort_by(&mut parts, Ord::cmp);
     for (name, i) in parts {
         let bytes = std::mem::take(&mut files[i].1);
         reader.push(&bytes).map_err(|error| in_file(error, name))?;

@@ -2,7 +2,7 @@
 
 use super::mcap::DriveTopic;
 use boresight_core::Remark;
-use boresight_core::describe::{Described, Named};
+use boresight_options::{Described, Named};
 use serde::Serialize;
 
 /// Why a row of a drive log was left out.

@@ -48,7 +48,7 @@ impl Scans {
 
 /// By time, scans of one time by radar.
 pub(crate) fn sort_scans(scans: &mut [Scan]) {
-    boresight_core::order::sort_by(scans, |a, b| {
+    boresight_math::order::sort_by(scans, |a, b| {
         a.time_s.total_cmp(&b.time_s).then(a.sensor.cmp(&b.sensor))
     });
 }

@@ -99,7 +99,7 @@ pub fn read_detections(bytes: &[u8], report: &mut ReadReport) -> Result<DriveLog
     rows.not_empty()?;
     let sensors = scans.sensors().map(|id| Sensor { id, mounting: None }).collect();
     let mut scans = scans.into_vec();
-    boresight_core::order::sort_ascending(&mut scans, |scan| scan.time_s);
+    boresight_math::order::sort_ascending(&mut scans, |scan| scan.time_s);
     Ok(DriveLog { sensors, scans, motion: vec![] })
 }
 

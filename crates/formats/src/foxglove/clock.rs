@@ -1,7 +1,7 @@
 //! Times of a log as messages have them.
 
 use super::messages::Time;
-use boresight_core::{CoreError, DriveLog};
+use boresight_core::{DriveLog, InputError};
 
 /// Seconds that fit into a time of a message.
 const LONGEST_S: f64 = u32::MAX as f64;
@@ -16,15 +16,15 @@ impl Clock {
     /// The clock of a log.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for times beyond 2^32 s after its zero.
-    pub fn of(log: &DriveLog) -> Result<Self, CoreError> {
+    /// [`InputError::OutOfRange`] for times beyond 2^32 s after its zero.
+    pub fn of(log: &DriveLog) -> Result<Self, InputError> {
         let scans = log.scans.iter().map(|scan| scan.time_s);
         let times = scans.chain(log.motion.iter().map(|sample| sample.time_s));
         let (first, last) = times.fold((0.0_f64, 0.0_f64), |(a, b), t| (a.min(t), b.max(t)));
         if last - first <= LONGEST_S {
             return Ok(Self { zero_s: first });
         }
-        Err(CoreError::OutOfRange {
+        Err(InputError::OutOfRange {
             what: "time of the log".into(),
             expected: format!("at most {LONGEST_S} s after its zero"),
             given: last - first,

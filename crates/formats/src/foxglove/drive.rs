@@ -3,9 +3,9 @@
 use super::messages::{FrameTransform, Log, LogLevel, PointCloud, SceneUpdate, Time};
 use super::typed::{encode, encode_own, known, own};
 use super::{Channel, Clock, Message, cloud, scene, transform};
-use boresight_core::describe::Described;
 use boresight_core::drive::{DriveLog, MotionSample, Mounting, Pose, Scan, Sensor};
-use boresight_core::{CoreError, Remark};
+use boresight_core::{InputError, Remark};
+use boresight_options::Described;
 use serde::Serialize;
 
 /// The topic of a radar.
@@ -53,7 +53,7 @@ impl<'a> DriveTopics<'a> {
     ///
     /// # Errors
     /// Those of [`Clock::of`].
-    pub fn new(log: &'a DriveLog, wanted: impl Fn(u8) -> bool) -> Result<Self, CoreError> {
+    pub fn new(log: &'a DriveLog, wanted: impl Fn(u8) -> bool) -> Result<Self, InputError> {
         let clock = Clock::of(log)?;
         let mut channels: Vec<Channel> = vec![];
         let mut add = |channel| {

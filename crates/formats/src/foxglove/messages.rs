@@ -1,6 +1,6 @@
 //! Messages of Foxglove's schemas, with their names and units: SI and radians, fields as they are called there.
 
-use boresight_core::describe::{Described, Kind, Special};
+use boresight_options::{Described, Kind, Special};
 use serde::{Serialize, Serializer};
 
 /// A name of Foxglove's for a number.

@@ -1,7 +1,7 @@
 //! JSON Schemas of described messages, in the part of JSON Schema that viewers read: a type a value, numbers of a name by `oneOf`,
 //! no null, no lists of lists.
 
-use boresight_core::describe::{Kind, NumberType, Record, naming};
+use boresight_options::{Kind, NumberType, Record, naming};
 use serde_json::{Map, Value, json};
 
 /// How fields are called outside Rust.

@@ -3,10 +3,10 @@ use super::typed::{encode, encode_own, own};
 use super::{Clock, DriveTopics, Message, cloud, scene};
 use crate::mcap::write::McapWriter;
 use boresight_core::Remark;
-use boresight_core::describe::Described;
 use boresight_core::drive::{
     Detection, DriveLog, MotionSample, Mounting, Pose, STATIC_LABEL, Scan, Sensor,
 };
+use boresight_options::Described;
 use serde::Serialize;
 use serde_json::{Value, json};
 

@@ -3,8 +3,8 @@
 use super::Channel;
 use super::schema::{self, Spelling};
 use crate::json;
-use boresight_core::describe::Described;
-use boresight_core::describe::naming::javascript;
+use boresight_options::Described;
+use boresight_options::naming::javascript;
 use serde::Serialize;
 use serde_json::Value;
 

@@ -99,7 +99,7 @@ fn found(file: &File) -> Vec<Found> {
 /// Datasets of numbers in a group and those in it; what cannot be read is none. Groups may hold themselves.
 fn walk(group: &Group, path: &str, (depth, groups): (usize, &mut usize), all: &mut Vec<Found>) {
     let sorted = |mut names: Vec<String>| {
-        boresight_core::order::sort_by(&mut names, Ord::cmp);
+        boresight_math::order::sort_by(&mut names, Ord::cmp);
         names
     };
     for name in sorted(group.datasets().unwrap_or_default()) {

@@ -9,7 +9,7 @@ use super::{AdcFormat, RadarConfig, SubFrame, platform_layout};
 use crate::dca1000::layout::{CASCADE_RECEIVERS, Layout};
 use crate::error::FormatError;
 use boresight_core::Remark;
-use boresight_core::{CoreError, Sampling, Waveform, presets};
+use boresight_core::{InputError, Sampling, Waveform, presets};
 
 /// Settings of the board and its own processing: they leave the raw samples as they are.
 const WITHOUT_EFFECT: [&str; 30] = [
@@ -292,7 +292,7 @@ impl Commands {
         let Some(SubFrame { waveform, transmitters }) = sub_frames.get(chosen).cloned() else {
             let (what, last) = ("sub-frame", sub_frames.len() - 1);
             let (expected, given) = (format!("from 0 to {last}"), chosen as f64);
-            return Err(CoreError::OutOfRange { what: what.into(), expected, given }.into());
+            return Err(InputError::OutOfRange { what: what.into(), expected, given }.into());
         };
         let (bits, format) = self.adc.unwrap_or_else(|| {
             self.remark("assumed", "no adcCfg line: 16 bits, complex assumed".into());
@@ -398,7 +398,7 @@ impl Commands {
             doppler_bands: None,
         };
         waveform.check().map_err(|error| match error {
-            CoreError::OutOfRange { what, expected, given } => {
+            InputError::OutOfRange { what, expected, given } => {
                 at.error(what, expected, given.to_string())
             }
             other => other.into(),
@@ -467,7 +467,7 @@ impl Commands {
         if let Some(forced) = frame.forced_profile {
             used = vec![forced];
         }
-        boresight_core::order::sort_by(&mut used, Ord::cmp);
+        boresight_math::order::sort_by(&mut used, Ord::cmp);
         used.dedup();
         if used.len() > 1 {
             return Err(line.error("profiles of its chirps", "one", format!("{used:?}")));

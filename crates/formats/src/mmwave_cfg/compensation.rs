@@ -4,12 +4,12 @@ use super::RadarConfig;
 use super::line::Line;
 use crate::error::FormatError;
 use boresight_core::array::Channel;
-use boresight_core::steering::cis;
-use boresight_core::units::db_to_amplitude;
 use boresight_core::{
-    Array, ArrayCalibration, CalibrationMethod, ChannelCalibration, Complex64, CoreError,
+    Array, ArrayCalibration, CalibrationMethod, ChannelCalibration, Complex64, InputError,
     NotIdentifiable,
 };
+use boresight_math::decibels::db_to_amplitude;
+use boresight_math::phasor::cis;
 use std::fmt::{self, Display, Formatter};
 
 /// Receivers of a chip; the line names all of them.
@@ -127,8 +127,8 @@ impl RadarConfig {
     /// The array with the configuration's coefficients taken into account.
     ///
     /// # Errors
-    /// [`CoreError`] for coefficients out of range.
-    pub fn compensated(&self, array: &Array) -> Result<Array, CoreError> {
+    /// [`InputError`] for coefficients out of range.
+    pub fn compensated(&self, array: &Array) -> Result<Array, InputError> {
         match self.calibration(array) {
             Some(calibration) => array.calibrated(&calibration),
             None => Ok(array.clone()),
@@ -148,7 +148,7 @@ impl RadarConfig {
         let channels: Vec<usize> = self.chip_channels().collect();
         let given = [calibration.tx.len(), calibration.rx.len()];
         if calibration.channels.len() != channels.len() {
-            return Err(CoreError::OtherArray {
+            return Err(InputError::OtherArray {
                 expected: format!("{} transmitters x {} receivers", given[0], given[1]),
                 given: format!(
                     "{} transmitters x {} receivers",

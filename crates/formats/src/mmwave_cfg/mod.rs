@@ -14,8 +14,8 @@ mod sequence;
 use crate::dca1000::layout::{Layout, Plan};
 use crate::error::FormatError;
 use antennas::preset_of;
-use boresight_core::error::check_range;
 use boresight_core::{Array, Remark, Sampling, Waveform, presets};
+use boresight_math::error::check_range;
 use commands::Commands;
 pub use compensation::Compensation;
 use line::Line;
@@ -127,7 +127,7 @@ impl RadarConfig {
     /// The same with another sub-frame chosen.
     ///
     /// # Errors
-    /// [`boresight_core::CoreError::OutOfRange`] for one that is not there.
+    /// [`boresight_core::InputError::OutOfRange`] for one that is not there.
     pub fn choose(mut self, sub_frame: usize) -> Result<Self, FormatError> {
         let last = self.sub_frames.len().saturating_sub(1);
         check_range("sub-frame", sub_frame as f64, 0.0, last as f64)?;

@@ -1,6 +1,6 @@
 use super::*;
 use crate::error::FormatError;
-use boresight_core::CoreError;
+use boresight_core::InputError;
 
 fn file(header: &str, body: &[u8]) -> Vec<u8> {
     let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
@@ -30,7 +30,7 @@ fn what_is_written_is_read() {
     let empty = NpyArray::parse(&write::<f64>(&[0, 5], &[]).unwrap()).unwrap();
     assert_eq!(empty.shape, [0, 5]);
     let short = write(&[2], &[1.0_f64]).unwrap_err();
-    assert!(matches!(short, FormatError::Argument(CoreError::Shape { .. })), "{short}");
+    assert!(matches!(short, FormatError::Argument(InputError::Shape { .. })), "{short}");
 }
 
 #[test]

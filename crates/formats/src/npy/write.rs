@@ -1,7 +1,7 @@
 //! Writing.
 
 use crate::error::FormatError;
-use boresight_core::{Complex32, Complex64, CoreError};
+use boresight_core::{Complex32, Complex64, InputError};
 
 /// A number type that can be written.
 pub trait Element: Copy {
@@ -44,12 +44,12 @@ impl Element for Complex64 {
 /// The bytes of a `.npy` file (version 1) of numbers in C order.
 ///
 /// # Errors
-/// [`CoreError::Shape`] if the shape does not hold the count of numbers;
-/// [`CoreError::OutOfRange`] for more than 32 axes.
+/// [`InputError::Shape`] if the shape does not hold the count of numbers;
+/// [`InputError::OutOfRange`] for more than 32 axes.
 pub fn write<T: Element>(shape: &[usize], data: &[T]) -> Result<Vec<u8>, FormatError> {
     let count = shape.iter().try_fold(1_usize, |n, &length| n.checked_mul(length));
     if count != Some(data.len()) {
-        return Err(CoreError::Shape {
+        return Err(InputError::Shape {
             what: "data".into(),
             expected: format!("{} numbers, to fill {shape:?}", count.unwrap_or(usize::MAX)),
             given: vec![data.len()],
@@ -67,9 +67,9 @@ pub fn write<T: Element>(shape: &[usize], data: &[T]) -> Result<Vec<u8>, FormatE
 /// What stands before the numbers in such a file.
 ///
 /// # Errors
-/// [`CoreError::OutOfRange`] for more than 32 axes.
+/// [`InputError::OutOfRange`] for more than 32 axes.
 pub fn preamble<T: Element>(shape: &[usize]) -> Result<Vec<u8>, FormatError> {
-    boresight_core::error::check_range("axes", shape.len() as f64, 0.0, 32.0)?;
+    boresight_math::error::check_range("axes", shape.len() as f64, 0.0, 32.0)?;
     let axes: String = shape.iter().map(|length| format!("{length}, ")).collect();
     // One axis needs its comma; more read better without the last one.
     let axes = if shape.len() == 1 { axes.trim_end() } else { axes.trim_end_matches(", ") };

@@ -93,7 +93,7 @@ fn from_file(
     if let Some(bytes) = beside.scenes {
         add_scenes(&Scenes::read(bytes)?, &mut scans, origin_us, report);
     }
-    boresight_core::order::sort_ascending(&mut scans, |scan| scan.time_s);
+    boresight_math::order::sort_ascending(&mut scans, |scan| scan.time_s);
     let ids: BTreeSet<u8> = scans.iter().map(|scan| scan.sensor).collect();
     let sensors = ids.into_iter().map(|id| sensor(id, mountings.as_ref())).collect::<Vec<_>>();
     report.mountings =

@@ -7,7 +7,7 @@
 use super::json::{SceneEntry, ScenesFile, SequenceEntry, SequencesFile, sensors_json};
 use super::wrong;
 use crate::error::FormatError;
-use boresight_core::CoreError;
+use boresight_core::InputError;
 use boresight_core::drive::{Detection, DriveLog, MotionSample, Mounting, STATIC_LABEL, Scan};
 use hdf5_pure::{
     CharacterSet, CompoundTypeBuilder, Datatype, FileBuilder, LibVer, StringPadding, make_f32_type,
@@ -55,8 +55,8 @@ pub struct SequenceFiles {
 /// Beside the file's rows, 110 bytes a detection, nothing of its size is held in memory.
 ///
 /// # Errors
-/// [`CoreError::Empty`] without scans or motion, [`CoreError::Shape`] unless every detection has a
-/// label (and a track, if there are any), [`CoreError::OutOfRange`] for times beyond 100,000 s,
+/// [`InputError::Empty`] without scans or motion, [`InputError::Shape`] unless every detection has a
+/// label (and a track, if there are any), [`InputError::OutOfRange`] for times beyond 100,000 s,
 /// [`FormatError::TimeBackwards`], and [`FormatError::Hdf5`] if `radar_data` takes no bytes.
 pub fn write(
     log: &DriveLog,
@@ -132,7 +132,7 @@ pub fn write(
 
 fn check(log: &DriveLog, tracks: &[Vec<u32>]) -> Result<(), FormatError> {
     let empty = |what: &str, expected: &str| -> FormatError {
-        CoreError::Empty { what: what.into(), expected: expected.into() }.into()
+        InputError::Empty { what: what.into(), expected: expected.into() }.into()
     };
     if log.scans.is_empty() {
         return Err(empty("scans", "at least one scan"));
@@ -145,7 +145,7 @@ fn check(log: &DriveLog, tracks: &[Vec<u32>]) -> Result<(), FormatError> {
             return Ok(());
         }
         let expected = format!("{expected}, one for each");
-        Err(CoreError::Shape { what: what.into(), expected, given: vec![given] }.into())
+        Err(InputError::Shape { what: what.into(), expected, given: vec![given] }.into())
     };
     if !tracks.is_empty() {
         shape("tracks", log.scans.len(), tracks.len())?;
@@ -170,7 +170,7 @@ fn stamps(
         .map(|time_s| {
             let since_s = time_s - start_s;
             if !(-1e-6..=LONGEST_S).contains(&since_s) {
-                return Err(CoreError::OutOfRange {
+                return Err(InputError::OutOfRange {
                     what: format!("time of {what}"),
                     expected: format!("{start_s} to {} s", start_s + LONGEST_S),
                     given: time_s,

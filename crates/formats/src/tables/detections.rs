@@ -3,7 +3,7 @@
 use super::{Columns, field, finite, from_csv};
 use crate::error::FormatError;
 use boresight_core::Direction;
-use boresight_core::describe::Described;
+use boresight_options::Described;
 use serde::{Deserialize, Serialize};
 
 /// One detection of a table.

@@ -11,7 +11,7 @@ mod stream;
 
 use crate::mmwave_cfg::RadarConfig;
 use boresight_core::Remark;
-use boresight_core::describe::{Described, columns};
+use boresight_options::{Described, columns};
 use serde::{Serialize, Serializer};
 pub use stream::UartStream;
 

@@ -1,8 +1,8 @@
 //! Weights of networks of motion: what is read gives finite motions, or says that there is none.
 
-use boresight_calibrate::network::MotionNetwork;
-use boresight_calibrate::{CalibrationOptions, Calibrator, FrameInput, Method, MotionMethod};
 use boresight_core::Detection;
+use boresight_mounting::network::MotionNetwork;
+use boresight_mounting::{CalibrationOptions, Calibrator, FrameInput, Method, MotionMethod};
 use std::sync::Arc;
 
 /// Both networks' file without its checksum.

@@ -2,8 +2,8 @@
 
 use boresight_aoa::{Estimator, EstimatorOptions, Method};
 use boresight_core::array::Position;
-use boresight_core::describe::{self, Described, Named, Naming};
 use boresight_core::{Array, Multiplexing, Sampling, Waveform, presets};
+use boresight_options::{Described, Named, Naming};
 use boresight_pipeline::{Chain, ChainOptions};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -29,7 +29,7 @@ fn read<T: DeserializeOwned + Serialize + Described + PartialEq + std::fmt::Debu
     json: &[u8],
 ) -> Option<T> {
     let read: T = serde_json::from_slice(json).ok()?;
-    describe::check(&read, Naming::Rust).ok()?;
+    boresight_options::check(&read, Naming::Rust).ok()?;
     let text = serde_json::to_vec(&read).expect("options are JSON");
     let again = serde_json::from_slice(&text).expect("what was written is read");
     assert_eq!(read, again);

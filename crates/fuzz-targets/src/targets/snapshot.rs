@@ -1,7 +1,7 @@
 //! Snapshots of calibrations: what is restored takes frames, and comes back when it is kept again.
 
-use boresight_calibrate::{CalibrationOptions, Calibrator, FrameInput};
 use boresight_core::Detection;
+use boresight_mounting::{CalibrationOptions, Calibrator, FrameInput};
 use std::sync::LazyLock;
 
 /// What a calibration keeps after some frames, without its checksum.

@@ -37,7 +37,7 @@ impl<'a> Replay<'a> {
     /// # Errors
     /// Those of laying the configuration over the recording, and of a rate that is not above 0.
     pub fn new(recording: &'a [u8], config: &RadarConfig, rate: f64) -> Result<Self, LiveError> {
-        let positive = boresight_core::error::check_range("rate", rate, f64::MIN_POSITIVE, 1e6);
+        let positive = boresight_math::error::check_range("rate", rate, f64::MIN_POSITIVE, 1e6);
         positive.map_err(boresight_formats::FormatError::from)?;
         let capture = Capture::new(recording, config)?;
         let samples = &recording[..recording.len() - capture.trailing_bytes()];

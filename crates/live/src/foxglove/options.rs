@@ -1,6 +1,6 @@
 //! Options of the server.
 
-use boresight_core::describe::Described;
+use boresight_options::Described;
 use serde::{Deserialize, Serialize};
 
 /// How a drive is served.

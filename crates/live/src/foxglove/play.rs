@@ -2,11 +2,11 @@
 
 use super::results::ResultTopics;
 use crate::error::LiveError;
-use boresight_calibrate::network::MotionNetwork;
-use boresight_calibrate::{CalibrationOptions, Car, Frames};
 use boresight_core::Remark;
 use boresight_core::drive::{DriveLog, Scan};
 use boresight_formats::foxglove::{Channel, Message};
+use boresight_mounting::network::MotionNetwork;
+use boresight_mounting::{CalibrationOptions, Car, Frames};
 use std::sync::Arc;
 
 /// What is calibrated, and how.

@@ -1,14 +1,14 @@
 //! The messages of a drive and of its calibration, in order of time.
 
-use boresight_calibrate::{
-    Alignment, AngleEstimate, CalibrateError, CalibrationOptions, Car, FrameOutcome, Remark,
-};
-use boresight_core::describe::Described;
 use boresight_core::drive::{DriveLog, Mounting, Scan};
-use boresight_core::{CoreError, Remark as DriveRemark};
+use boresight_core::{InputError, Remark as DriveRemark};
 use boresight_formats::foxglove::messages::{LogLevel, SceneUpdate, Time};
 use boresight_formats::foxglove::typed::{encode, encode_own, known, own};
 use boresight_formats::foxglove::{Channel, DriveTopics, Message, scene, topic};
+use boresight_mounting::{
+    Alignment, AngleEstimate, CalibrationOptions, Car, FrameOutcome, MountingError, Remark,
+};
+use boresight_options::Described;
 use serde::Serialize;
 
 /// Angles are told no more often, s of the drive.
@@ -88,7 +88,7 @@ impl<'a> ResultTopics<'a> {
     ///
     /// # Errors
     /// Those of [`DriveTopics::new`].
-    pub fn new(log: &'a DriveLog, car: &Car) -> Result<Self, CoreError> {
+    pub fn new(log: &'a DriveLog, car: &Car) -> Result<Self, InputError> {
         let radars = car.radars();
         let mut drive = DriveTopics::new(log, |id| radars.iter().any(|(sensor, _)| *sensor == id))?;
         let radars = radars
@@ -140,14 +140,14 @@ impl<'a> ResultTopics<'a> {
     /// What the car did until a scan, the scan, what became of it, and now and then the angle.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for a radar that is none of the calibration.
+    /// [`InputError::OutOfRange`] for a radar that is none of the calibration.
     pub fn step(
         &mut self,
         scan: &Scan,
         outcome: FrameOutcome,
         car: &Car,
         out: &mut Vec<Message>,
-    ) -> Result<(), CalibrateError> {
+    ) -> Result<(), MountingError> {
         self.scan(scan, outcome, out);
         if self.is_angle_due(scan.sensor, scan.time_s) {
             self.angle(scan.sensor, scan.time_s, &car.estimate(scan.sensor)?, out);
@@ -159,7 +159,7 @@ impl<'a> ResultTopics<'a> {
     ///
     /// # Errors
     /// As [`Self::step`].
-    pub fn end(&mut self, car: &Car, out: &mut Vec<Message>) -> Result<(), CalibrateError> {
+    pub fn end(&mut self, car: &Car, out: &mut Vec<Message>) -> Result<(), MountingError> {
         let last = self.radars.iter().filter_map(|radar| radar.last_s).reduce(f64::max);
         for sensor in self.radars.iter().map(|radar| radar.sensor).collect::<Vec<_>>() {
             if let Some(last_s) = last {

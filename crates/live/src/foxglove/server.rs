@@ -8,7 +8,7 @@ use super::shared::{Counts, Shared};
 use crate::admission::isolated;
 use crate::error::LiveError;
 use crate::origin::Origins;
-use boresight_core::describe::{self, Naming};
+use boresight_options::{Naming, check};
 use std::io::ErrorKind;
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::sync::atomic::Ordering;
@@ -30,9 +30,9 @@ impl Server {
     /// Listens at the address of the options.
     ///
     /// # Errors
-    /// [`boresight_core::CoreError::OutOfRange`] naming an option, [`LiveError::Origin`] and [`LiveError::Listen`].
+    /// [`boresight_core::InputError::OutOfRange`] naming an option, [`LiveError::Origin`] and [`LiveError::Listen`].
     pub fn bind(options: ServeOptions) -> Result<Self, LiveError> {
-        describe::check(&options, Naming::Rust)?;
+        check(&options, Naming::Rust)?;
         let ServeOptions { host, port, .. } = &options;
         let origins = Origins::of_viewers(options.origin.as_deref())?;
         let failed = |error: std::io::Error| LiveError::Listen {

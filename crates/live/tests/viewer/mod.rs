@@ -1,10 +1,10 @@
 //! A drive that is served, and a viewer of it.
 #![allow(clippy::unwrap_used, clippy::panic, dead_code)]
 
-use boresight_calibrate::CalibrationOptions;
 use boresight_core::drive::{Detection, DriveLog, MotionSample, Mounting, Pose, Scan, Sensor};
 use boresight_live::foxglove::play::Setup;
 use boresight_live::foxglove::{Counts, Play, ServeOptions, Server};
+use boresight_mounting::CalibrationOptions;
 use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::net::{SocketAddr, TcpStream};

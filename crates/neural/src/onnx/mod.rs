@@ -10,7 +10,7 @@ mod outline;
 mod tensor;
 
 use crate::error::NeuralError;
-use boresight_core::CoreError;
+use boresight_core::InputError;
 use tract_onnx::pb::ModelProto;
 use tract_onnx::prelude::Framework;
 
@@ -23,7 +23,7 @@ pub(crate) const MAX_BYTES: usize = 256 << 20;
 /// [`NeuralError`] telling what is wrong with the file.
 pub(crate) fn read(bytes: &[u8]) -> Result<ModelProto, NeuralError> {
     if bytes.len() > MAX_BYTES {
-        return Err(NeuralError::Argument(CoreError::OutOfRange {
+        return Err(NeuralError::Argument(InputError::OutOfRange {
             what: "size of the ONNX file, bytes".into(),
             expected: format!("at most {MAX_BYTES}"),
             given: bytes.len() as f64,

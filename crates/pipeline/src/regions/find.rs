@@ -8,10 +8,11 @@ use crate::error::PipelineError;
 use crate::options::usable_range_m;
 use boresight_aoa::{Data, Estimator, EstimatorOptions, Method};
 use boresight_core::correction::Correction;
-use boresight_core::error::check_range;
-use boresight_core::order::{descending, sort_descending};
-use boresight_core::steering::{cis, steering_vector};
-use boresight_core::{Array, Complex32, Complex64, CoreError, Direction, Waveform};
+use boresight_core::steering::steering_vector;
+use boresight_core::{Array, Complex32, Complex64, Direction, InputError, Waveform};
+use boresight_math::error::check_range;
+use boresight_math::order::{descending, sort_descending};
+use boresight_math::phasor::cis;
 use boresight_signal::peaks::{Peak, group_peaks};
 use boresight_signal::range::{range_doppler_coupling_m, range_of_bin_m};
 use boresight_signal::region::{
@@ -94,7 +95,7 @@ impl RegionFinder {
     /// `waveform.samples`, whose channels are elements of the array as in [`crate::Chain::new`].
     ///
     /// # Errors
-    /// [`CoreError::Incompatible`] for real samples, which no network of regions was trained on; [`CoreError::OutOfRange`]
+    /// [`InputError::Incompatible`] for real samples, which no network of regions was trained on; [`InputError::OutOfRange`]
     /// for options out of range, and where frames have fewer range bins or loops than a
     /// region; [`PipelineError::Channels`] for an array of other channels; [`PipelineError::Multiplexing`] for transmitters
     /// that send at once; what detection says of its window.
@@ -198,7 +199,7 @@ impl RegionFinder {
         let Waveform { loops, transmitters, samples, .. } = self.waveform;
         let shape = [loops, transmitters, self.receivers, samples];
         if frame.shape() != shape {
-            return Err(CoreError::Shape {
+            return Err(InputError::Shape {
                 what: "frame".into(),
                 expected: format!("{shape:?}"),
                 given: frame.shape().to_vec(),

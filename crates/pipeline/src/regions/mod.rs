@@ -29,12 +29,12 @@ use boresight_aoa::{
     Counted, Data, EstimatorOptions, RangeAngle, RangeAngleTarget, SourceCount, Warning,
 };
 use boresight_core::Progress;
-use boresight_core::describe::decibels::finite_db;
-use boresight_core::describe::remark::Coded;
-use boresight_core::linalg::least_squares;
-use boresight_core::order::sort_descending;
 use boresight_core::steering::steering_matrix;
-use boresight_core::{Array, Complex32, Complex64, CoreError, Direction, Remark, Waveform};
+use boresight_core::{Array, Complex32, Complex64, Direction, InputError, Remark, Waveform};
+use boresight_math::linalg::least_squares;
+use boresight_math::order::sort_descending;
+use boresight_options::decibels::finite_db;
+use boresight_options::remark::Coded;
 use boresight_signal::Window;
 use boresight_signal::cfar::Detection;
 use boresight_signal::peaks::interpolate;
@@ -89,7 +89,7 @@ impl RegionChain {
     /// biased if its range rate differs from that of the strongest target of its region.
     ///
     /// # Errors
-    /// Those of [`RegionFinder::new`] and [`RangeAngle::new`]; [`CoreError::Incompatible`] if `region_window` is not
+    /// Those of [`RegionFinder::new`] and [`RangeAngle::new`]; [`InputError::Incompatible`] if `region_window` is not
     /// rectangular, since other windows correlate the noise of neighbouring bins.
     pub fn joint(
         waveform: &Waveform,
@@ -98,7 +98,7 @@ impl RegionChain {
         options: &RegionChainOptions,
     ) -> Result<Self, PipelineError> {
         if options.region_window != Window::Rectangular {
-            return Err(PipelineError::from(CoreError::Incompatible {
+            return Err(PipelineError::from(InputError::Incompatible {
                 what: "window of regions without networks".into(),
                 expected: Window::Rectangular.name().into(),
                 given: options.region_window.name().into(),

@@ -1,7 +1,7 @@
 //! Options of regions.
 
 use crate::error::PipelineError;
-use boresight_core::describe::{self, Described, Naming};
+use boresight_options::{Described, Naming, check};
 use boresight_signal::region::RegionOptions;
 use boresight_signal::{CfarOptions, Region, Window};
 use serde::{Deserialize, Serialize};
@@ -66,9 +66,9 @@ impl RegionChainOptions {
     /// Checks every option.
     ///
     /// # Errors
-    /// [`boresight_core::CoreError::OutOfRange`] naming the option.
+    /// [`boresight_core::InputError::OutOfRange`] naming the option.
     pub fn check(&self) -> Result<(), PipelineError> {
         self.region.check()?;
-        Ok(describe::check(self, Naming::Rust)?)
+        Ok(check(self, Naming::Rust)?)
     }
 }

@@ -1,7 +1,7 @@
 //! What regions give.
 
 use boresight_core::Remark;
-use boresight_core::describe::{Described, columns, decibels};
+use boresight_options::{Described, columns, decibels};
 use serde::Serialize;
 
 /// A target in a region.

@@ -24,10 +24,10 @@ mod training_noise;
 
 use crate::error::SignalError;
 pub use bin_noise::BinNoise;
-use boresight_core::CoreError;
-use boresight_core::describe::{self, Naming};
-use boresight_core::error::check_range;
+use boresight_core::InputError;
 use boresight_core::limits::{check_bytes, check_operations};
+use boresight_math::error::check_range;
+use boresight_options::{Naming, check};
 use excision::LeftFactors;
 pub use gamma::ln_incomplete as ln_incomplete_gamma;
 use ndarray::{Array2, ArrayView2};
@@ -114,11 +114,11 @@ impl Cfar {
     /// Plans detection on maps of `ranges` x `dopplers`.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for an option out of range, [`SignalError::Window`] where the
-    /// window is larger than the map, [`CoreError::TooLarge`] above the limits of the thread
+    /// [`InputError::OutOfRange`] for an option out of range, [`SignalError::Window`] where the
+    /// window is larger than the map, [`InputError::TooLarge`] above the limits of the thread
     /// ([`boresight_core::limits`]).
     pub fn new(ranges: usize, dopplers: usize, options: &CfarOptions) -> Result<Self, SignalError> {
-        describe::check(options, Naming::Rust)?;
+        check(options, Naming::Rust)?;
         check_range("looks", options.looks as f64, 1.0, 1024.0)?;
         check_range("range bins", ranges as f64, 1.0, MAX_BINS)?;
         check_range("Doppler bins", dopplers as f64, 1.0, MAX_BINS)?;
@@ -176,8 +176,8 @@ impl Cfar {
     /// and Doppler bins.
     ///
     /// # Errors
-    /// [`CoreError::Shape`] if the map has another shape than planned, [`CoreError::NotFinite`] or
-    /// [`CoreError::OutOfRange`] if it holds NaN, infinity or a negative power.
+    /// [`InputError::Shape`] if the map has another shape than planned, [`InputError::NotFinite`] or
+    /// [`InputError::OutOfRange`] if it holds NaN, infinity or a negative power.
     pub fn detect(&mut self, power: ArrayView2<f32>) -> Result<Vec<Detection>, SignalError> {
         check_power(power, self.shape)?;
         let mut detections = Vec::new();
@@ -204,7 +204,7 @@ impl Cfar {
     /// What each range bin is held against at one Doppler bin of `power`.
     ///
     /// # Errors
-    /// As [`Cfar::detect`]; [`CoreError::OutOfRange`] for a bin outside the map.
+    /// As [`Cfar::detect`]; [`InputError::OutOfRange`] for a bin outside the map.
     pub fn thresholds(
         &mut self,
         power: ArrayView2<f32>,
@@ -389,7 +389,7 @@ fn of_rows<T: Copy>(
 
 fn check_power(power: ArrayView2<f32>, shape: (usize, usize)) -> Result<(), SignalError> {
     if power.dim() != shape {
-        return Err(SignalError::Argument(CoreError::Shape {
+        return Err(SignalError::Argument(InputError::Shape {
             what: "power map".into(),
             expected: format!("[{}, {}]", shape.0, shape.1),
             given: power.shape().to_vec(),
@@ -399,9 +399,9 @@ fn check_power(power: ArrayView2<f32>, shape: (usize, usize)) -> Result<(), Sign
     if power.iter().all(|p| (0.0..=f32::MAX).contains(p)) {
         return Ok(());
     }
-    boresight_core::error::check_finite("power map", power.iter().map(|&p| f64::from(p)))?;
+    boresight_math::error::check_finite("power map", power.iter().map(|&p| f64::from(p)))?;
     let given = power.iter().copied().fold(0.0, f32::min);
-    Err(SignalError::Argument(CoreError::OutOfRange {
+    Err(SignalError::Argument(InputError::OutOfRange {
         what: "power map".into(),
         expected: "powers of at least 0".into(),
         given: given.into(),

@@ -1,7 +1,7 @@
 //! Options of detection.
 
 use super::bin_noise::BinNoise;
-use boresight_core::describe::Described;
+use boresight_options::Described;
 use serde::{Deserialize, Serialize};
 
 /// How noise is estimated from the training cells.

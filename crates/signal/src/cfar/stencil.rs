@@ -4,7 +4,7 @@
 use super::training_cells::TrainingCells;
 use super::{CfarAxes, CfarOptions};
 use crate::error::SignalError;
-use boresight_core::error::check_range;
+use boresight_math::error::check_range;
 use std::ops::Range;
 
 /// Most cells a window may reach from the cell under test, along either axis.

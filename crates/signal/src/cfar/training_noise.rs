@@ -6,7 +6,7 @@ use super::stencil::Rectangle;
 use super::training_cells::TrainingCells;
 use crate::error::SignalError;
 use boresight_core::Complex64;
-use boresight_core::linalg::hermitian_eigen;
+use boresight_math::linalg::hermitian_eigen;
 use ndarray::Array2;
 
 /// Cells of a half in one line, up to which the mean's distribution follows from the eigenvalues of their correlation.

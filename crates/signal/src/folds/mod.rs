@@ -25,10 +25,11 @@ use crate::binary_phase::hadamard;
 use crate::error::SignalError;
 use crate::tdm::phase_step_rad;
 use boresight_core::correction::Correction;
-use boresight_core::error::check_range;
 use boresight_core::limits::check_bytes;
-use boresight_core::steering::{cis, steering_vector};
-use boresight_core::{Array, Complex64, CoreError, Direction, Multiplexing};
+use boresight_core::steering::steering_vector;
+use boresight_core::{Array, Complex64, Direction, InputError, Multiplexing};
+use boresight_math::error::check_range;
+use boresight_math::phasor::cis;
 use ndarray::{Array2, ArrayView2};
 use sine_grid::SineGrid;
 use std::f64::consts::TAU;
@@ -74,9 +75,9 @@ impl FoldTest {
     /// channels `channels` of the cube and have errors that `correction` takes off, with up to `most_folds` to each side.
     ///
     /// # Errors
-    /// [`CoreError::Shape`] for another number of channels than elements or one that is no multiple
-    /// of the transmitters; [`CoreError::OutOfRange`] for a channel beyond them or more than 32
-    /// folds; [`CoreError::TooLarge`] above the limits of the thread.
+    /// [`InputError::Shape`] for another number of channels than elements or one that is no multiple
+    /// of the transmitters; [`InputError::OutOfRange`] for a channel beyond them or more than 32
+    /// folds; [`InputError::TooLarge`] above the limits of the thread.
     pub fn new(
         array: &Array,
         channels: &[usize],
@@ -88,7 +89,7 @@ impl FoldTest {
         check_range("doppler_folds", most_folds as f64, 0.0, 32.0)?;
         let elements = array.len();
         if channels.len() != elements || !elements.is_multiple_of(transmitters.max(1)) {
-            return Err(SignalError::Argument(CoreError::Shape {
+            return Err(SignalError::Argument(InputError::Shape {
                 what: "channels of the folds".into(),
                 expected: format!("{elements}, a multiple of {transmitters} transmitters"),
                 given: vec![channels.len()],
@@ -128,7 +129,7 @@ impl FoldTest {
     /// `noise_power` is that of one channel in the cell, or 0.
     ///
     /// # Errors
-    /// [`CoreError::Shape`] for snapshots of another number of channels.
+    /// [`InputError::Shape`] for snapshots of another number of channels.
     pub fn decide(
         &self,
         snapshots: ArrayView2<'_, Complex64>,
@@ -137,7 +138,7 @@ impl FoldTest {
         noise_power: f64,
     ) -> Result<Fold, SignalError> {
         if snapshots.nrows() != self.channels.len() {
-            return Err(SignalError::Argument(CoreError::Shape {
+            return Err(SignalError::Argument(InputError::Shape {
                 what: "snapshots".into(),
                 expected: format!("{} channels", self.channels.len()),
                 given: snapshots.shape().to_vec(),
@@ -179,7 +180,7 @@ impl FoldTest {
         let turns = phase_step_rad(doppler_bin, dopplers, 1, 0) / TAU;
         let mut folds: Vec<i32> = (-self.most_folds..=self.most_folds).collect();
         let speed = |fold: &i32| (f64::from(*fold) + turns).abs();
-        boresight_core::order::sort_ascending(&mut folds, speed);
+        boresight_math::order::sort_ascending(&mut folds, speed);
         let chirps = self.chirps as i32;
         let mut told: Vec<i32> = vec![];
         for fold in folds {

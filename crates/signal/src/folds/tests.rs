@@ -3,7 +3,7 @@ use super::*;
 use crate::tdm::phase_step_rad;
 use boresight_core::Random;
 use boresight_core::presets::preset;
-use boresight_core::units::db_to_power;
+use boresight_math::decibels::db_to_power;
 
 /// The virtual array of all transmitters and receivers.
 fn whole(name: &str) -> (Array, usize) {

@@ -1,8 +1,8 @@
 //! The truth behind a drive as columns of numbers, which cost a program in another language little.
 
 use super::{CarErrors, SimulatedDrive, YawRateErrors};
-use boresight_core::describe::{Described, columns};
 use boresight_core::drive::Mounting;
+use boresight_options::{Described, columns};
 use serde::Serialize;
 
 /// What really happened in a simulated drive.

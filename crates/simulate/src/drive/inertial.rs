@@ -5,8 +5,8 @@ use super::options::DriveOptions;
 use super::profile::YawRateSensor;
 use super::realistic::{CarErrors, model};
 use boresight_core::Random;
-use boresight_core::describe::Described;
 use boresight_core::drive::MotionSample;
+use boresight_options::Described;
 use serde::Serialize;
 
 /// Errors of a yaw-rate sensor.

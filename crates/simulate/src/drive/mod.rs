@@ -39,7 +39,7 @@ pub use wire::PlacedRadar;
 use crate::error::SimulateError;
 use boresight_core::Random;
 use boresight_core::drive::{DriveLog, Mounting, Scan, Sensor};
-use boresight_core::order::{sort_ascending, sort_by};
+use boresight_math::order::{sort_ascending, sort_by};
 use std::ops::ControlFlow;
 
 /// Streams of the seed.

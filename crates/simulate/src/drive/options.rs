@@ -3,10 +3,10 @@
 use super::profile::{DriveProfile, YawRateSensor};
 use super::scenario::Scenario;
 use super::wire;
-use boresight_core::CoreError;
-use boresight_core::describe::{self, Described, Naming};
+use boresight_core::InputError;
 use boresight_core::drive::{Mounting, RADARSCENES_SENSORS};
-use boresight_core::error::check_range;
+use boresight_math::error::check_range;
+use boresight_options::{Described, Naming, check};
 use serde::{Deserialize, Serialize};
 
 /// Longest drive, s.
@@ -113,19 +113,19 @@ impl DriveOptions {
     /// Checks every number.
     ///
     /// # Errors
-    /// [`CoreError::Empty`] without radars, [`CoreError::OutOfRange`] for a number out of range,
+    /// [`InputError::Empty`] without radars, [`InputError::OutOfRange`] for a number out of range,
     /// a radar named twice, or a misaligned radar that is not there.
-    pub fn check(&self) -> Result<(), CoreError> {
-        describe::check(self, Naming::Rust)?;
+    pub fn check(&self) -> Result<(), InputError> {
+        check(self, Naming::Rust)?;
         if self.profile == DriveProfile::Radarscenes && self.noise != RadarNoise::default() {
-            return Err(CoreError::Incompatible {
+            return Err(InputError::Incompatible {
                 what: "noise".into(),
                 expected: "the default, because the profile radarscenes has its own noise".into(),
                 given: "other than the default".into(),
             });
         }
         if self.sensors.is_empty() {
-            return Err(CoreError::Empty {
+            return Err(InputError::Empty {
                 what: "sensors".into(),
                 expected: "at least one radar".into(),
             });
@@ -167,6 +167,6 @@ impl DriveOptions {
     }
 }
 
-fn wrong_sensor(what: &str, expected: &str, id: u8) -> CoreError {
-    CoreError::OutOfRange { what: what.into(), expected: expected.into(), given: f64::from(id) }
+fn wrong_sensor(what: &str, expected: &str, id: u8) -> InputError {
+    InputError::OutOfRange { what: what.into(), expected: expected.into(), given: f64::from(id) }
 }

@@ -1,6 +1,6 @@
 //! How far a simulated drive is from an ideal one.
 
-use boresight_core::describe::Described;
+use boresight_options::Described;
 use serde::{Deserialize, Serialize};
 
 /// What the errors of radars and car are like.

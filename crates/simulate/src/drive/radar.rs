@@ -82,7 +82,7 @@ impl Radar<'_> {
             MAX_DETECTIONS
         };
         if detections.len() > limit {
-            boresight_core::order::sort_descending(&mut detections, |one| one.strength_db);
+            boresight_math::order::sort_descending(&mut detections, |one| one.strength_db);
             detections.truncate(limit);
         }
         detections

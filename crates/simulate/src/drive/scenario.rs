@@ -1,7 +1,7 @@
 //! Kinds of roads, and routes over them: curvature, speed limits and stops along the way.
 
-use boresight_core::describe::{Described, Named};
-use boresight_core::{CoreError, Random};
+use boresight_core::{InputError, Random};
+use boresight_options::{Described, Named};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -56,8 +56,8 @@ impl Scenario {
     /// Finds a scenario by its [`Scenario::name`].
     ///
     /// # Errors
-    /// [`CoreError::Unknown`], listing the known names.
-    pub fn from_name(name: &str) -> Result<Self, CoreError> {
+    /// [`InputError::Unknown`], listing the known names.
+    pub fn from_name(name: &str) -> Result<Self, InputError> {
         Named::from_name("scenario", name)
     }
 

@@ -26,7 +26,7 @@ pub(crate) fn trim(scans: &mut [(&mut Vec<Labelled>, bool)], share: f64, random:
     let wanted = share / (1.0 - share) * standing;
     if moving > wanted {
         let mut order: Vec<(u64, u32)> = tracks.keys().map(|t| (random.bits(), *t)).collect();
-        boresight_core::order::sort_by(&mut order, Ord::cmp);
+        boresight_math::order::sort_by(&mut order, Ord::cmp);
         // Share of its detections that a track keeps.
         let mut keep: BTreeMap<u32, f64> = BTreeMap::new();
         let mut excess = moving - wanted;

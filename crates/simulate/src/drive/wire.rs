@@ -1,7 +1,7 @@
 //! Radars and misalignments by number, as serde carries them.
 
-use boresight_core::describe::{Described, Kind, Special};
 use boresight_core::drive::Mounting;
+use boresight_options::{Described, Kind, Special};
 use serde::{Deserialize, Serialize};
 
 /// A radar of a simulated drive.

@@ -10,11 +10,11 @@ pub use view::VisibleTarget;
 use crate::cube::{CubeOptions, simulate_cube};
 use crate::error::SimulateError;
 use crate::waveforms::waveform_corner;
-use boresight_core::describe::{self, Described, Naming, columns};
 use boresight_core::drive::{Mounting, RADARSCENES_SENSORS};
-use boresight_core::error::check_range;
 use boresight_core::presets::preset;
 use boresight_core::{Complex32, Random, Waveform};
+use boresight_math::error::check_range;
+use boresight_options::{Described, Naming, check, columns};
 use ndarray::Array5;
 use serde::{Deserialize, Serialize, Serializer};
 use std::f64::consts::{FRAC_PI_3, PI};
@@ -152,9 +152,9 @@ impl Street {
     /// Lays out a street.
     ///
     /// # Errors
-    /// [`boresight_core::CoreError::OutOfRange`] for a speed beyond 30 m/s either way.
+    /// [`boresight_core::InputError::OutOfRange`] for a speed beyond 30 m/s either way.
     pub fn new(options: StreetOptions) -> Result<Self, SimulateError> {
-        describe::check(&options, Naming::Rust)?;
+        check(&options, Naming::Rust)?;
         let radar = |(name, mounting): (&'static str, Mounting)| StreetRadar {
             name,
             mounting,
@@ -177,7 +177,7 @@ impl Street {
     /// shadow, and not far below the noise.
     ///
     /// # Errors
-    /// [`boresight_core::CoreError::OutOfRange`] for a radar there is not.
+    /// [`boresight_core::InputError::OutOfRange`] for a radar there is not.
     pub fn visible(&self, radar: usize) -> Result<Vec<VisibleTarget>, SimulateError> {
         check_range("radar", radar as f64, 0.0, self.radars.len() as f64 - 1.0)?;
         Ok(view::visible(self, &self.radars[radar]))

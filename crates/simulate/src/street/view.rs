@@ -3,7 +3,7 @@
 use super::{Street, StreetKind, StreetRadar};
 use crate::cube::CubeTarget;
 use boresight_core::Direction;
-use boresight_core::describe::Described;
+use boresight_options::Described;
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 

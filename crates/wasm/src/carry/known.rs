@@ -4,7 +4,7 @@ use super::names::property;
 use crate::error::{BindingError, Fallible};
 use crate::given;
 use crate::read::shortened;
-use boresight_core::describe::At;
+use boresight_options::At;
 use js_sys::{Object, Reflect};
 use std::cell::{Cell, RefCell};
 use wasm_bindgen::JsValue;

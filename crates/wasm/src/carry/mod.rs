@@ -1,4 +1,4 @@
-//! Options and results that describe themselves (`boresight_core::describe`), carried over the
+//! Options and results that describe themselves (`boresight_options`), carried over the
 //! boundary by serde: objects are read and written here, in the names and units of JavaScript, and
 //! every leaf by serde-wasm-bindgen.
 

@@ -1,7 +1,7 @@
 //! Names of properties as JavaScript strings, each made once: handing text across the boundary
 //! costs more than the property itself.
 
-use boresight_core::describe::naming;
+use boresight_options::naming;
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};

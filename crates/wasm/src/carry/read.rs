@@ -7,8 +7,8 @@ use super::walk::{Entries, FieldsOf, Items};
 use crate::error::{BindingError, Fallible};
 use crate::given;
 use crate::read::{item_count, shortened, wrong_type};
-use boresight_core::CoreError;
-use boresight_core::describe::{At, Described, Kind, Naming};
+use boresight_core::InputError;
+use boresight_options::{At, Described, Kind, Naming};
 use js_sys::{Object, Reflect};
 use serde::de::value::StringDeserializer;
 use serde::de::{DeserializeOwned, Deserializer, IntoDeserializer, Visitor};
@@ -85,7 +85,7 @@ impl<'a> Reader<'a> {
     }
 
     fn out_of_range(&self, expected: &str, given: f64) -> ReadError {
-        BindingError::from(CoreError::OutOfRange {
+        BindingError::from(InputError::OutOfRange {
             what: self.at.path(),
             expected: expected.into(),
             given,
@@ -147,7 +147,7 @@ impl<'a> Reader<'a> {
             return Ok(());
         }
         let (what, expected) = (self.at.path(), format!("[{expected}]"));
-        Err(BindingError::from(CoreError::Shape { what, expected, given: vec![given] }).into())
+        Err(BindingError::from(InputError::Shape { what, expected, given: vec![given] }).into())
     }
 
     #[inline(never)]

@@ -1,8 +1,8 @@
 //! Why a value was refused, in one word of memory: serde passes it through every field of every struct.
 
 use crate::error::BindingError;
-use boresight_core::CoreError;
-use boresight_core::describe::At;
+use boresight_core::InputError;
+use boresight_options::At;
 use serde::de::{Expected, Unexpected};
 use std::fmt::{Debug, Display};
 use thiserror::Error;
@@ -49,7 +49,7 @@ impl serde::de::Error for ReadError {
 
     fn unknown_variant(given: &str, expected: &'static [&'static str]) -> Self {
         let (what, expected, given) = (String::new(), expected.join(", "), given.into());
-        BindingError::from(CoreError::Unknown { what, expected, given }).into()
+        BindingError::from(InputError::Unknown { what, expected, given }).into()
     }
 
     fn unknown_field(field: &str, expected: &'static [&'static str]) -> Self {

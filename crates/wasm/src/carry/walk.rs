@@ -5,7 +5,7 @@ use super::names::property;
 use super::read::{Reader, Reading};
 use super::refusal::ReadError;
 use crate::given;
-use boresight_core::describe::At;
+use boresight_options::At;
 use js_sys::{Object, Reflect};
 use serde::de::{DeserializeSeed, IntoDeserializer, MapAccess, SeqAccess};
 use std::iter::Zip;

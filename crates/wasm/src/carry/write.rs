@@ -1,8 +1,8 @@
 //! Results as plain JavaScript objects with typed arrays of their own.
 
 use super::names::{Property, property};
-use boresight_core::describe::NumberType;
-use boresight_core::describe::columns::number_type;
+use boresight_options::NumberType;
+use boresight_options::columns::number_type;
 use js_sys::{Array, Float32Array, Float64Array, Int8Array, Object, Uint8Array, Uint32Array};
 use serde::ser::{
     Serialize, SerializeMap, SerializeSeq, SerializeStruct, SerializeTuple, Serializer,

@@ -12,9 +12,9 @@ use boresight_aoa::refinement::Refinement;
 use boresight_aoa::{BatchEstimate, Data, Source};
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::presets::preset;
-use boresight_core::steering::cis;
-use boresight_core::units::{db_to_amplitude, db_to_power};
 use boresight_core::{Array, Complex64, Direction, Imperfections};
+use boresight_math::decibels::{db_to_amplitude, db_to_power};
+use boresight_math::phasor::cis;
 use boresight_simulate::snapshots::{
     Fluctuation, Scene, SceneSampling, SnapshotOptions, SnapshotSimulator, Target,
 };

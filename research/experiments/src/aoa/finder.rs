@@ -9,9 +9,9 @@ use boresight_aoa::options::Thresholding;
 use boresight_aoa::{
     AoaError, BatchEstimate, Estimator, EstimatorOptions, Method, Source, SourceCount,
 };
-use boresight_core::describe::Named;
 use boresight_core::{Array, Complex64, Direction};
 use boresight_neural::Kind;
+use boresight_options::Named;
 use ndarray::ArrayView3;
 use std::sync::{Mutex, PoisonError};
 

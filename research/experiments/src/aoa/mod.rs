@@ -16,9 +16,9 @@ pub use times::times;
 
 use crate::EvaluateError;
 use crate::entrants::{Entrants, by_entrants};
-use boresight_core::error::check_range;
 use boresight_core::imperfections::ImperfectionSpread;
-use boresight_core::{Array, CoreError};
+use boresight_core::{Array, InputError};
+use boresight_math::error::check_range;
 use boresight_validate::experiment::{Answered, Experiment, Tell, Trials};
 use serde::{Deserialize, Serialize};
 
@@ -34,11 +34,11 @@ const MOST_TARGETS: f64 = 64.0;
 const CHUNK: u64 = 250;
 
 /// Checks that a signal-to-noise ratio is one of [`SNRS_DB`].
-pub(crate) fn check_snr(snr_db: f64) -> Result<(), CoreError> {
+pub(crate) fn check_snr(snr_db: f64) -> Result<(), InputError> {
     if SNRS_DB.contains(&snr_db) {
         return Ok(());
     }
-    Err(CoreError::OutOfRange {
+    Err(InputError::OutOfRange {
         what: "snrDb".into(),
         expected: SNRS_DB.map(|snr_db| snr_db.to_string()).join(", "),
         given: snr_db,
@@ -120,7 +120,7 @@ impl Experiment for AoaExperiment {
         check_range("trials", self.trials as f64, 1.0, 1e7)?;
         check_range("validation", self.validation as f64, 1.0, 1e7)?;
         if self.targets.is_empty() || self.snrs_db.is_empty() {
-            return Err(CoreError::Empty {
+            return Err(InputError::Empty {
                 what: "conditions".into(),
                 expected: "at least one number of targets and one signal-to-noise ratio".into(),
             }

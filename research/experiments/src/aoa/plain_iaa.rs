@@ -5,10 +5,10 @@
 //! network's lead over "IAA" comes from the baseline.
 
 use boresight_aoa::{AoaError, Data, Estimate, Method, Plan, Source};
-use boresight_core::linalg::{Cholesky, adjoint};
-use boresight_core::order::sort_descending;
 use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Complex64, Direction};
+use boresight_math::linalg::{Cholesky, adjoint};
+use boresight_math::order::sort_descending;
 use ndarray::{Array1, Array2};
 
 /// Iterations.

@@ -2,7 +2,7 @@
 
 use super::score::Point;
 use boresight_aoa::Source;
-use boresight_core::units::power_to_db;
+use boresight_math::decibels::power_to_db;
 use serde::{Deserialize, Serialize};
 
 /// How many right predictions there are that state deviations, and how many err by less than one and two of them.

@@ -14,9 +14,9 @@ use crate::aoa::score::WITHIN_RAD;
 use crate::aoa::{self, Condition, cell};
 use crate::apart::half_beam;
 use crate::entrants::{Entrants, by_entrants};
-use boresight_core::error::check_range;
 use boresight_core::presets::preset;
 use boresight_core::{Array, Random};
+use boresight_math::error::check_range;
 use boresight_validate::experiment::{Experiment, Trials};
 use serde::{Deserialize, Serialize};
 

@@ -12,7 +12,7 @@ pub use report::CalibrationReport;
 pub use scene::SceneRecord;
 
 use crate::EvaluateError;
-use boresight_core::error::check_range;
+use boresight_math::error::check_range;
 use boresight_simulate::drive::DriveProfile;
 use boresight_validate::candidates::CANDIDATES;
 use boresight_validate::experiment::Experiment;

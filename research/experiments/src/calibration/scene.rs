@@ -2,9 +2,9 @@
 
 use super::{CalibrationExperiment, PROFILES};
 use crate::EvaluateError;
-use boresight_calibrate::CalibrationOptions;
 use boresight_core::Random;
 use boresight_core::drive::{Mounting, RADARSCENES_SENSORS};
+use boresight_mounting::CalibrationOptions;
 use boresight_simulate::drive::{
     DriveOptions, DriveProfile, MOTION_STEP_S, Scenario, SimulatedDrive, TrueMotion, simulate_drive,
 };

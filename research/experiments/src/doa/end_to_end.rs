@@ -7,7 +7,7 @@ use super::trial::{DoaRecord, Plan, Tally};
 use crate::EvaluateError;
 use crate::entrants::Network;
 use boresight_aoa::{Counted, Data, EstimatorOptions, SourceCount};
-use boresight_core::error::check_range;
+use boresight_math::error::check_range;
 use boresight_neural::{Kind, REGION_FIELD_OF_VIEW_RAD};
 use boresight_pipeline::RegionChain;
 use boresight_pipeline::regions::{RegionChainOptions, RegionFinder};
@@ -39,7 +39,7 @@ impl EndToEnd {
         if self.counting.kind != Kind::Counting {
             let given = self.counting.name.clone();
             let (what, expected) = ("counting network".into(), "one that counts".into());
-            return Err(boresight_core::CoreError::Incompatible { what, expected, given }.into());
+            return Err(boresight_core::InputError::Incompatible { what, expected, given }.into());
         }
         Ok(())
     }

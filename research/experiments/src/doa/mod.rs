@@ -19,9 +19,9 @@ pub use report::DoaReport;
 
 use crate::EvaluateError;
 use crate::entrants::{Entrants, by_entrants};
-use boresight_core::error::check_range;
 use boresight_core::presets::preset;
 use boresight_core::{Array, Waveform};
+use boresight_math::error::check_range;
 use boresight_simulate::{waveform_3dcnn_experiment, waveform_3dcnn_simulated};
 use boresight_validate::experiment::{Answered, Experiment, Tell, Trials};
 use region_methods::RegionMethod;

@@ -5,10 +5,10 @@ use super::REGION;
 use super::trial::{FIELD_OF_VIEW_RAD, LARGEST_DEG};
 use crate::EvaluateError;
 use boresight_aoa::{EstimatorOptions, RangeAngle, SourceCount};
-use boresight_core::linalg::Cholesky;
-use boresight_core::order::sort_numbers;
 use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Complex32, Complex64, Direction};
+use boresight_math::linalg::Cholesky;
+use boresight_math::order::sort_numbers;
 use ndarray::{Array2, ArrayView3};
 
 /// Kind of method.
@@ -103,7 +103,7 @@ fn projections(array: &Array, targets: usize) -> Result<Vec<Hypothesis>, Evaluat
             set.iter().map(|degrees| f64::from(*degrees).to_radians()).collect();
         let directions: Vec<Direction> = azimuths.iter().map(|a| Direction::azimuth(*a)).collect();
         let steering = steering_matrix(array, &directions);
-        let adjoint = boresight_core::linalg::adjoint(steering.view());
+        let adjoint = boresight_math::linalg::adjoint(steering.view());
         let inverse = Cholesky::new(adjoint.dot(&steering).view())?.inverse();
         Ok((azimuths, steering.dot(&inverse).dot(&adjoint)))
     };

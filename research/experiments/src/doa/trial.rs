@@ -10,11 +10,11 @@ use crate::told::{self, Candidate};
 use boresight_aoa::bounds::{Signals, deterministic_bound, stochastic_bound, uncorrelated};
 use boresight_aoa::order::counting::{CountOptions, Criterion, count_sources_in};
 use boresight_aoa::{Data, Estimator, EstimatorOptions, SourceCount};
-use boresight_core::describe::Named;
-use boresight_core::linalg::hermitian_eigen;
-use boresight_core::units::db_to_power;
-use boresight_core::{Array, Complex32, Complex64, CoreError, Direction, Random, Waveform};
+use boresight_core::{Array, Complex32, Complex64, Direction, InputError, Random, Waveform};
+use boresight_math::decibels::db_to_power;
+use boresight_math::linalg::hermitian_eigen;
 use boresight_neural::{Kind, Model};
+use boresight_options::Named;
 use boresight_signal::region::{crop_region, range_spectrum, region_snapshots, strongest_range};
 use boresight_signal::{Window, sample_covariance};
 use boresight_simulate::cube::{CubeOptions, CubeTarget, simulate_cube};
@@ -153,7 +153,7 @@ impl Plan {
         let of_regions = RegionMethod::ALL.iter().map(|method| method.name());
         let known: Vec<&str> = known.chain(of_regions).collect();
         if let Some(name) = methods.iter().find(|name| !known.contains(&name.as_str())) {
-            return Err(CoreError::Unknown {
+            return Err(InputError::Unknown {
                 what: "method".into(),
                 expected: known.join("; "),
                 given: name.clone(),
@@ -163,7 +163,7 @@ impl Plan {
         let named = |name: &str| methods.iter().any(|method| method == name);
         for network in networks {
             if network.kind.answers_target_set() {
-                return Err(CoreError::Incompatible {
+                return Err(InputError::Incompatible {
                     what: format!("use of the network {}", network.name),
                     expected: "a network that counts, or one of a region or its covariance".into(),
                     given: network.kind.name().into(),
@@ -183,7 +183,7 @@ impl Plan {
             flow.check()?;
             if let Some(given) = methods.first().cloned() {
                 let (what, expected) = ("methods from end to end".into(), "networks only".into());
-                return Err(CoreError::Incompatible { what, expected, given }.into());
+                return Err(InputError::Incompatible { what, expected, given }.into());
             }
         }
         let seed = options.seed;

@@ -10,11 +10,11 @@ use crate::EvaluateError;
 use crate::entrants::{Entrants, by_entrants};
 use boresight_aoa::Method;
 use boresight_cli::street::{CHAIN, ImageFigures, Maker, StreetFrames};
-use boresight_core::CoreError;
-use boresight_core::describe::Named;
-use boresight_core::error::check_range;
+use boresight_core::InputError;
 use boresight_image::{HiddenMeasure, PointMeasure, ViewGrid};
+use boresight_math::error::check_range;
 use boresight_neural::Model;
+use boresight_options::Named;
 use boresight_pipeline::image::{Angles, Content};
 use boresight_simulate::street::STREET_RADARS;
 use boresight_simulate::{Street, StreetOptions};
@@ -138,7 +138,7 @@ impl Experiment for ImagesExperiment {
         names.retain(|name| known.insert(name.clone()));
         let methods = names.iter().map(|name| images_by(name));
         let networks = self.entrants.networks.iter().map(|network| {
-            let other = || CoreError::Incompatible {
+            let other = || InputError::Incompatible {
                 what: format!("network {}", network.name),
                 expected: "one that finds angles in a snapshot".into(),
                 given: network.kind.name().into(),

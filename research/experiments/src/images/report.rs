@@ -1,9 +1,9 @@
 //! From records to tables.
 
 use super::{ImageRecord, ImagesExperiment, ImagesRecord};
-use boresight_core::describe::Named;
-use boresight_core::units::power_to_db;
 use boresight_image::PointMeasure;
+use boresight_math::decibels::power_to_db;
+use boresight_options::Named;
 use boresight_pipeline::image::Content;
 use boresight_validate::ValidateError;
 use boresight_validate::table::{Best, Cell, Table, Tables};

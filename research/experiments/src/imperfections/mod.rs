@@ -10,8 +10,8 @@ pub use report::ImperfectionsReport;
 use crate::EvaluateError;
 use crate::aoa::{self, Condition, cell};
 use crate::entrants::{Entrants, by_entrants};
-use boresight_core::error::check_range;
 use boresight_core::imperfections::ImperfectionSpread;
+use boresight_math::error::check_range;
 use boresight_validate::experiment::{Experiment, Trials};
 use serde::{Deserialize, Serialize};
 

@@ -8,8 +8,8 @@ use crate::told;
 use boresight_aoa::bounds::{Signals, deterministic_bound, uncorrelated};
 use boresight_aoa::{Data, Estimator};
 use boresight_core::presets::preset;
-use boresight_core::units::db_to_power;
-use boresight_core::{Array, CoreError, Direction};
+use boresight_core::{Array, Direction, InputError};
+use boresight_math::decibels::db_to_power;
 use boresight_signal::sample_covariance;
 use ndarray::Axis;
 use serde::{Deserialize, Serialize};
@@ -73,7 +73,7 @@ impl Plan {
         let all = told::candidates(&array, usize::MAX, POWERS_DB.len(), FIELD_OF_VIEW_RAD, false);
         let named = |name: &String| {
             let fits = |c: &&told::Candidate| c.name == *name && c.takes_covariance();
-            all.iter().find(fits).cloned().ok_or_else(|| CoreError::Unknown {
+            all.iter().find(fits).cloned().ok_or_else(|| InputError::Unknown {
                 what: "method".into(),
                 expected: "one that takes a covariance of the array".into(),
                 given: name.clone(),

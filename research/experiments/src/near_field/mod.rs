@@ -12,7 +12,7 @@ pub use report::NearFieldReport;
 
 use crate::EvaluateError;
 use crate::entrants::{Entrants, by_entrants};
-use boresight_core::error::check_range;
+use boresight_math::error::check_range;
 use boresight_validate::experiment::{Experiment, Trials};
 use serde::{Deserialize, Serialize};
 use trial::{NearFieldRecord, Plan};

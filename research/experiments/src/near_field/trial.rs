@@ -9,10 +9,10 @@ use crate::deviation::Deviation;
 use boresight_aoa::refinement::Refinement;
 use boresight_aoa::{BatchEstimate, Data, EstimatorOptions, Source};
 use boresight_core::array::Position;
-use boresight_core::error::check_range;
 use boresight_core::presets::preset;
-use boresight_core::units::db_to_power;
-use boresight_core::{Array, CoreError};
+use boresight_core::{Array, InputError};
+use boresight_math::decibels::db_to_power;
+use boresight_math::error::check_range;
 use boresight_simulate::SnapshotOptions;
 use ndarray::{Array3, Axis};
 use serde::{Deserialize, Serialize};
@@ -133,7 +133,7 @@ impl Plan {
 
 /// The array with the centres of its transmitters and of its receivers in the origin. Plane waves differ by a phase
 /// that all elements share.
-fn centred(array: &Array) -> Result<Array, CoreError> {
+fn centred(array: &Array) -> Result<Array, InputError> {
     let shifted = |positions: &[Position]| -> Vec<Position> {
         let count = positions.len() as f64;
         let middle = [0, 1, 2].map(|axis| positions.iter().map(|p| p[axis]).sum::<f64>() / count);

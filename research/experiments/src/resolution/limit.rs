@@ -3,8 +3,8 @@
 use boresight_aoa::AoaError;
 use boresight_aoa::bounds::{Signals, deterministic_bound, uncorrelated};
 use boresight_core::steering::steering_vector;
-use boresight_core::units::db_to_power;
 use boresight_core::{Array, Complex64, Direction};
+use boresight_math::decibels::db_to_power;
 
 /// Width of the beam of the whole array at half power, in sine of azimuth.
 pub fn beam_width(array: &Array) -> f64 {

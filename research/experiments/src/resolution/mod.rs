@@ -13,7 +13,7 @@ pub mod trial;
 pub use report::ResolutionReport;
 
 use crate::EvaluateError;
-use boresight_core::error::check_range;
+use boresight_math::error::check_range;
 use boresight_validate::experiment::{Experiment, Trials};
 use serde::{Deserialize, Serialize};
 use trial::{Plan, ResolutionRecord};

@@ -13,8 +13,8 @@ use boresight_aoa::{
     AoaError, BatchEstimate, Data, EstimatorOptions, Source, SourceCount, SpectrumKind,
 };
 use boresight_core::presets::preset;
-use boresight_core::units::db_to_power;
 use boresight_core::{Array, Complex64, Direction, Extent};
+use boresight_math::decibels::db_to_power;
 use boresight_simulate::Target;
 use boresight_validate::experiment::Experiment;
 use ndarray::{Array3, ArrayView2, Axis};

@@ -3,8 +3,8 @@
 use super::inverse::Singular;
 use super::kernel::{Kernel, weighted_power};
 use crate::spectra::dense_grid::DenseGrid;
-use boresight_core::linalg::Cholesky;
 use boresight_core::{Array, Complex64, Direction};
+use boresight_math::linalg::Cholesky;
 use ndarray::{ArrayView1, ArrayView2};
 
 /// The dense form.

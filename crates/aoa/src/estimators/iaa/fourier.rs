@@ -2,7 +2,7 @@
 
 use super::inverse::Real;
 use super::residues::Residues;
-use boresight_core::fft::RealFft;
+use boresight_math::fft::RealFft;
 use rustfft::Fft;
 use rustfft::num_complex::Complex;
 use rustfft::num_traits::Zero;
@@ -257,7 +257,7 @@ impl<T: Real> Chirp<T> {
 
 /// `exp(j phase)`, rounded to the type once.
 pub(super) fn cis<T: Real>(phase: f64) -> Complex<T> {
-    let z = boresight_core::steering::cis(phase % (2.0 * PI));
+    let z = boresight_math::phasor::cis(phase % (2.0 * PI));
     Complex::new(real(z.re), real(z.im))
 }
 

@@ -7,7 +7,7 @@
 //! all, the same as Cholesky, triangular inverse and product together, but in one kernel.
 
 use boresight_core::Complex64;
-use boresight_core::fft::Transforms;
+use boresight_math::fft::Transforms;
 use ndarray::Array2;
 use rustfft::num_complex::Complex;
 use rustfft::num_traits::Float;
@@ -335,7 +335,7 @@ pub(crate) fn hermitian_inverse(matrix: &Array2<Complex64>) -> Option<Array2<Com
 mod tests {
     use super::*;
     use boresight_core::Random;
-    use boresight_core::linalg::{Cholesky, adjoint};
+    use boresight_math::linalg::{Cholesky, adjoint};
 
     #[test]
     fn agrees_with_cholesky() {

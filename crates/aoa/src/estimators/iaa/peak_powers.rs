@@ -23,8 +23,8 @@ use super::split::Split;
 use crate::grid::Grid;
 use crate::model::cosines::Geometry;
 use crate::spectra::peaks::Peak;
-use boresight_core::steering::cis;
 use boresight_core::{Array, Complex64};
+use boresight_math::phasor::cis;
 use ndarray::ArrayView2;
 use std::f64::consts::PI;
 

@@ -8,7 +8,7 @@
 use super::fourier::{LagTransforms, cis};
 use super::inverse::Real;
 use boresight_core::Lattice;
-use boresight_core::fft::{Quad, SideBySide, parts, quad};
+use boresight_math::fft::{Quad, SideBySide, parts, quad};
 use rustfft::num_complex::Complex;
 use rustfft::num_traits::Zero;
 use std::f64::consts::{PI, TAU};

@@ -1,7 +1,8 @@
 use super::*;
 use boresight_core::Random;
 use boresight_core::presets::preset;
-use boresight_core::steering::{cis, steering_vector};
+use boresight_core::steering::steering_vector;
+use boresight_math::phasor::cis;
 use ndarray::{Array2, Axis};
 
 fn scene(

@@ -1,7 +1,8 @@
 use super::*;
 use boresight_core::Random;
 use boresight_core::presets::preset;
-use boresight_core::steering::{cis, steering_matrix};
+use boresight_core::steering::steering_matrix;
+use boresight_math::phasor::cis;
 
 fn noise(elements: usize, snapshots: usize, power: f64, random: &mut Random) -> Array2<Complex64> {
     Array2::from_shape_fn((elements, snapshots), |_| random.complex_normal(power))

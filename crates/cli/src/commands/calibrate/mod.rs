@@ -10,14 +10,14 @@ use crate::error::CliError;
 use crate::files::Files;
 use crate::output::remark;
 use crate::run::Run;
-use boresight_calibrate::network::MotionNetwork;
-use boresight_calibrate::{
-    AngleEstimate, CalibrationOptions, Car, FrameInput, Frames, NormalEquations, Outlook,
-};
 use boresight_core::Progress;
 use boresight_core::drive::{DriveLog, Sensor};
 use boresight_formats::DriveFormat;
 use boresight_live::foxglove::ResultTopics;
+use boresight_mounting::network::MotionNetwork;
+use boresight_mounting::{
+    AngleEstimate, CalibrationOptions, Car, FrameInput, Frames, NormalEquations, Outlook,
+};
 use boresight_pipeline::PipelineError;
 use boresight_report::Recorder;
 use serde_json::Value;

@@ -127,7 +127,7 @@ impl Clouds {
         let seconds = |stamp_ns: i128| (stamp_ns - first_ns) as f64 / 1e9;
         let mut channels: Vec<String> =
             self.scans.values().map(|scan| scan.channel.clone()).collect();
-        boresight_core::order::sort_by(&mut channels, Ord::cmp);
+        boresight_math::order::sort_by(&mut channels, Ord::cmp);
         channels.dedup();
         if channels.len() > MOST_RADARS {
             return Err(FormatError::NoDriveLog {

@@ -35,7 +35,7 @@ pub(super) fn motion(
         }
         finite
     });
-    boresight_core::order::sort_by(&mut poses, |a, b| a.stamp_ns.cmp(&b.stamp_ns));
+    boresight_math::order::sort_by(&mut poses, |a, b| a.stamp_ns.cmp(&b.stamp_ns));
     let mut kept: Vec<TimedPose> = vec![];
     for timed in poses {
         let near = kept.last().is_some_and(|last| timed.stamp_ns - last.stamp_ns < LEAST_APART_NS);

@@ -183,7 +183,7 @@ impl Read {
         }
         let mut rows = self.chassis;
         report.motion += rows.len() as u64;
-        boresight_core::order::sort_by(&mut rows, |a, b| a.0.cmp(&b.0));
+        boresight_math::order::sort_by(&mut rows, |a, b| a.0.cmp(&b.0));
         let mut samples: Vec<MotionSample> = vec![];
         for (stamp_ns, speed, yaw_rate_radps) in rows {
             let time_s = seconds(stamp_ns);

@@ -130,7 +130,7 @@ impl Drive {
         let has_speed = topic.motion().is_some_and(|motion| motion.has_speed());
         let mut rows: Vec<_> =
             topic.rows.iter().map(|(times, row)| (seconds(topic, *times), row)).collect();
-        boresight_core::order::sort_ascending(&mut rows, |row| row.0);
+        boresight_math::order::sort_ascending(&mut rows, |row| row.0);
         // An odometer tells its rates in the car's frame.
         let frame = topic.frame.as_deref().filter(|_| !has_speed);
         let turned = frame.and_then(|frame| self.frames.between(frame, &self.base));

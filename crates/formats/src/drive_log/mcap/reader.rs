@@ -137,7 +137,7 @@ impl McapDriveReader {
     pub fn finish(mut self) -> Result<DriveRead, FormatError> {
         self.end_file();
         let Self { topics: Topics { options, mut all, frames, .. }, remarks, .. } = self;
-        boresight_core::order::sort_by(&mut all, |a, b| {
+        boresight_math::order::sort_by(&mut all, |a, b| {
             (&a.name, &a.message_type).cmp(&(&b.name, &b.message_type))
         });
         let lost = remarks.iter().map(|remark| &*remark.message);

@@ -1,6 +1,6 @@
 //! Which topics a recording has, and what each is used for.
 
-use boresight_core::describe::Described;
+use boresight_options::Described;
 use serde::{Deserialize, Serialize};
 
 /// Which topics of a recording are read.

@@ -1,8 +1,8 @@
 //! What a set of data is to hold.
 
 use crate::drive::Scenario;
-use boresight_core::CoreError;
-use boresight_core::describe::{self, Described, Naming};
+use boresight_core::InputError;
+use boresight_options::{Described, Naming, check};
 use serde::{Deserialize, Serialize};
 
 /// Successive frames of a window.
@@ -44,12 +44,12 @@ impl DatasetOptions {
     /// Checks every number.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for a number out of range, [`CoreError::Incompatible`] where the only kind
+    /// [`InputError::OutOfRange`] for a number out of range, [`InputError::Incompatible`] where the only kind
     /// of roads is left out.
-    pub fn check(&self) -> Result<(), CoreError> {
-        describe::check(self, Naming::Rust)?;
+    pub fn check(&self) -> Result<(), InputError> {
+        check(self, Naming::Rust)?;
         if self.scenarios().is_empty() {
-            return Err(CoreError::Incompatible {
+            return Err(InputError::Incompatible {
                 what: "scenario_left_out".into(),
                 expected: "another kind of roads than the only one".into(),
                 given: self.scenario_left_out.map_or("", Scenario::name).into(),

@@ -3,7 +3,7 @@
 use super::model;
 use crate::drive::options::DriveOptions;
 use boresight_core::Random;
-use boresight_core::describe::Described;
+use boresight_options::Described;
 use serde::Serialize;
 
 /// How a car moves and measures, beside its yaw rate.
