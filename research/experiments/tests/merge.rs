@@ -146,7 +146,7 @@ fn parts_that_do_not_go_together_are_refused() {
         "{version:?}"
     );
     let nothing = merge(std::slice::from_ref(&root));
-    assert!(matches!(nothing, Err(EvaluateError::Core(_))), "{nothing:?}");
+    assert!(matches!(nothing, Err(EvaluateError::Run(ValidateError::Core(_)))), "{nothing:?}");
     assert!(matches!(
         merge(&[root.join("x")]),
         Err(EvaluateError::Run(ValidateError::File { .. }))

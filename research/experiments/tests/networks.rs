@@ -17,7 +17,10 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 fn network(name: &str) -> Network {
-    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let folders = ["models", "research/models"].map(|folder| root.join(folder));
+    let has = |folder: &&PathBuf| folder.join(format!("{name}.onnx")).is_file();
+    let models = folders.iter().find(has).unwrap();
     let read = |ending: &str| std::fs::read(models.join(format!("{name}.{ending}"))).unwrap();
     let card = Card::from_json(&read("json")).unwrap();
     let network = Network::new(Model::load(&read("onnx"), Some(&card)).unwrap(), "unnamed");

@@ -22,8 +22,10 @@ fn scores_counted_again_are_those_reported() {
     }
     let folder = folder("recount");
     let model = |name: &str| {
-        let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models");
-        models.join(format!("{name}.onnx")).to_str().unwrap().to_owned()
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let paths = ["models", "research/models"]
+            .map(|folder| root.join(folder).join(format!("{name}.onnx")));
+        paths.iter().find(|path| path.is_file()).unwrap().to_str().unwrap().to_owned()
     };
     let (of_snapshots, of_regions) = (model("learned-pursuit"), model("cnn3d-2"));
     let aoa =
