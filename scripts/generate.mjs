@@ -1,6 +1,8 @@
-// Writes TypeScript types, JSON Schemas and tables of docs from the descriptions in Rust, and from these the types of Python; with `--check` compares them instead.
+// Writes TypeScript types, JSON Schemas and tables of docs from the descriptions in Rust, from these the types of
+// Python, and the diagram of the crates; with `--check` compares them instead.
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { architecturePage } from './lib/architecture.mjs';
 import { root } from './lib/paths.mjs';
 import { program } from './lib/programs.mjs';
 import { pythonFiles } from './lib/python-types.mjs';
@@ -9,7 +11,7 @@ import { main, run } from './lib/run.mjs';
 await main(async () => {
   const args = process.argv.slice(2);
   await run(await program('boresight-generate'), args);
-  const stale = pythonFiles().filter(
+  const stale = [...pythonFiles(), architecturePage()].filter(
     ([name, text]) => !existsSync(join(root, name)) || readFileSync(join(root, name), 'utf8') !== text,
   );
   if (args.includes('--check') && stale.length > 0)
