@@ -2,9 +2,9 @@ import { cpSync, existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
-import { bundledDrive } from './scripts/lib/bundled-drive.mjs';
-import { compressed } from './scripts/lib/compressed.mjs';
-import { elementsModule } from './scripts/lib/manifest.mjs';
+import { bundledDrive } from './scripts/lib/build/bundled-drive.mjs';
+import { compressed } from './scripts/lib/build/compressed.mjs';
+import { elementsModule } from './scripts/lib/build/manifest.mjs';
 import { offline } from './web/offline.ts';
 
 const path = (name: string) => fileURLToPath(new URL(name, import.meta.url));

@@ -13,7 +13,7 @@ import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
-import { coreLimits } from '../scripts/lib/sizes.mjs';
+import { coreLimits } from '../scripts/lib/checks/sizes.mjs';
 import { recorded, regressions } from './baseline.mjs';
 import { boardRow } from './boards.mjs';
 import { classical, cube, drive, iaa48, scenesOf } from './cases.mjs';

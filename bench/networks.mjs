@@ -1,7 +1,7 @@
 // Networks: our module beside onnxruntime-web, one thread each, the same ONNX files and inputs.
 import { readFileSync } from 'node:fs';
 import { basename } from 'node:path';
-import { generator } from '../scripts/lib/generator.mjs';
+import { generator } from '../scripts/lib/build/generator.mjs';
 import { compare, here, median } from './measure.mjs';
 
 const BATCHES = [1, 32];

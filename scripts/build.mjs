@@ -3,15 +3,15 @@
 // web/app/dist.
 import { existsSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
-import { foxeName, makeFoxglove } from './lib/foxglove.mjs';
-import { makeInline } from './lib/inline.mjs';
-import { manifest } from './lib/manifest.mjs';
-import { makeNotebook, notebookFolder } from './lib/notebook.mjs';
-import { npmTools } from './lib/npm-tools.mjs';
+import { foxeName, makeFoxglove } from './lib/build/foxglove.mjs';
+import { makeInline } from './lib/build/inline.mjs';
+import { manifest } from './lib/build/manifest.mjs';
+import { makeNotebook, notebookFolder } from './lib/build/notebook.mjs';
+import { npmTools } from './lib/build/npm-tools.mjs';
+import { publish } from './lib/build/publish.mjs';
+import { upToDate, whenChanged } from './lib/build/stamp.mjs';
 import { dist, environment, root, wasmTarget } from './lib/paths.mjs';
-import { publish } from './lib/publish.mjs';
 import { isMain, main, run } from './lib/run.mjs';
-import { upToDate, whenChanged } from './lib/stamp.mjs';
 import { setup } from './setup.mjs';
 
 const targetDir = join(root, 'target');
@@ -205,13 +205,13 @@ export async function buildElements() {
   if (!done) say('dist/elements is up to date');
 }
 
-/** The package in single files (scripts/lib/inline.mjs). */
+/** The package in single files (scripts/lib/build/inline.mjs). */
 export async function buildInline() {
   const made = ({ name }) => [`dist/wasm/${name}.js`, `dist/wasm/${name}_bg.wasm`];
   const inputs = [
     'package-lock.json',
     ...['base', 'lib', 'inline'].map((name) => `tsconfig.${name}.json`),
-    'scripts/lib/inline.mjs',
+    'scripts/lib/build/inline.mjs',
     'web/inline',
     'web/lib',
     'web/worker',
@@ -250,12 +250,12 @@ export async function buildReference() {
   if (!done) say('dist/reference is up to date');
 }
 
-/** What the Python package of widgets holds (scripts/lib/notebook.mjs). */
+/** What the Python package of widgets holds (scripts/lib/build/notebook.mjs). */
 export async function buildNotebook() {
   const inputs = [
     'package.json',
     'package-lock.json',
-    'scripts/lib/notebook.mjs',
+    'scripts/lib/build/notebook.mjs',
     'vite.notebook.config.ts',
     'web/elements',
     'web/notebook',
@@ -271,7 +271,7 @@ export async function buildNotebook() {
   if (!done) say(`${notebookFolder} is up to date`);
 }
 
-/** The extension for Foxglove and Lichtblick (scripts/lib/foxglove.mjs). */
+/** The extension for Foxglove and Lichtblick (scripts/lib/build/foxglove.mjs). */
 export async function buildFoxglove() {
   const inputs = [
     'package.json',
@@ -280,8 +280,8 @@ export async function buildFoxglove() {
     'LICENSE',
     'LICENSE-APACHE',
     'NOTICE',
-    'scripts/lib/foxglove.mjs',
-    'scripts/lib/inline.mjs',
+    'scripts/lib/build/foxglove.mjs',
+    'scripts/lib/build/inline.mjs',
     'web/elements',
     'web/foxglove',
     'web/inline',
@@ -312,9 +312,9 @@ export async function buildDemo(variables = {}) {
   const inputs = [
     'package-lock.json',
     'vite.config.ts',
-    'scripts/lib/compressed.mjs',
-    'scripts/lib/bundled-drive.mjs',
-    'scripts/lib/manifest.mjs',
+    'scripts/lib/build/compressed.mjs',
+    'scripts/lib/build/bundled-drive.mjs',
+    'scripts/lib/build/manifest.mjs',
     'web/offline.ts',
     'web',
     'recordings',

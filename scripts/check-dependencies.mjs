@@ -2,8 +2,8 @@
 // from the file that defines an item, and at most two of them from each other.
 import { existsSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { problems, workspaceGraph } from './lib/dependency-rules.mjs';
-import { moduleProblems, sourcesOf } from './lib/module-imports.mjs';
+import { problems, workspaceGraph } from './lib/checks/dependency-rules.mjs';
+import { moduleProblems, sourcesOf } from './lib/checks/module-imports.mjs';
 import { root } from './lib/paths.mjs';
 import { main, output } from './lib/run.mjs';
 

@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { parse } from 'smol-toml';
 import { cargoTool } from './lib/cargo-tool.mjs';
-import { licenceAllowed, npmLicences } from './lib/licences.mjs';
+import { licenceAllowed, npmLicences } from './lib/checks/licences.mjs';
 import { root } from './lib/paths.mjs';
 import { main, run } from './lib/run.mjs';
 

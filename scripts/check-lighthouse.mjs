@@ -4,7 +4,7 @@ import { pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 import { buildDemo, buildPackage } from './build.mjs';
 import { browserArguments, browserMissing, findBrowser } from './lib/browser.mjs';
-import { npmTools } from './lib/npm-tools.mjs';
+import { npmTools } from './lib/build/npm-tools.mjs';
 import { main } from './lib/run.mjs';
 import { setup } from './setup.mjs';
 
@@ -25,8 +25,8 @@ await main(async () => {
   await buildPackage();
   await buildDemo();
   const { lighthouse, desktopConfig, launch } = await lighthouseModules();
-  const { serve } = await import('../tests/browser/session.mjs');
-  const { pages } = await import('../tests/browser/pages.mjs');
+  const { serve } = await import('../tests/browser/lib/session.mjs');
+  const { pages } = await import('../tests/browser/lib/pages.mjs');
   const { values, positionals } = parseArgs({
     options: { accessibility: { type: 'boolean' } },
     allowPositionals: true,

@@ -1,5 +1,5 @@
 // Lints and format of all Python code (ruff.toml).
-import { virtualEnvironment } from './lib/python.mjs';
+import { virtualEnvironment } from './lib/python/python.mjs';
 import { main, run } from './lib/run.mjs';
 
 await main(async () => {

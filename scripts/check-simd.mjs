@@ -1,8 +1,8 @@
 // The core .wasm must hold SIMD instructions in its function bodies, not only declare the feature.
 import { readFileSync } from 'node:fs';
+import { vectorInstructions } from './lib/checks/wasm-simd.mjs';
 import { coreWasm } from './lib/paths.mjs';
 import { main } from './lib/run.mjs';
-import { vectorInstructions } from './lib/wasm-simd.mjs';
 
 await main(async () => {
   const counts = await vectorInstructions(readFileSync(process.argv[2] ?? coreWasm));

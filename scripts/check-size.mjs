@@ -1,11 +1,9 @@
 // The core .wasm is what a page loads before it can do anything; that of networks, loaded when one is asked for, has room
-// for a runtime. The self-contained files are what a dashboard holds. scripts/lib/sizes.mjs has the limits.
+// for a runtime. The self-contained files are what a dashboard holds. scripts/lib/checks/sizes.mjs has the limits.
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { foxeName, foxgloveFolder } from './lib/foxglove.mjs';
-import { notebookFolder } from './lib/notebook.mjs';
-import { coreWasm, drivesWasm, inlineScript, neuralWasm, root } from './lib/paths.mjs';
-import { main } from './lib/run.mjs';
+import { foxeName, foxgloveFolder } from './lib/build/foxglove.mjs';
+import { notebookFolder } from './lib/build/notebook.mjs';
 import {
   coreLimits,
   describeSize,
@@ -15,7 +13,9 @@ import {
   notebookLimits,
   overLimit,
   sizes,
-} from './lib/sizes.mjs';
+} from './lib/checks/sizes.mjs';
+import { coreWasm, drivesWasm, inlineScript, neuralWasm, root } from './lib/paths.mjs';
+import { main } from './lib/run.mjs';
 
 await main(async () => {
   const given = process.argv[2];

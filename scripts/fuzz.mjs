@@ -7,7 +7,7 @@ import { join, relative } from 'node:path';
 import { parseArgs } from 'node:util';
 import { parse } from 'smol-toml';
 import { cargoTool } from './lib/cargo-tool.mjs';
-import { fuzzCounts, fuzzTable } from './lib/fuzz-counts.mjs';
+import { fuzzCounts, fuzzTable } from './lib/checks/fuzz-counts.mjs';
 import { root, tool } from './lib/paths.mjs';
 import { main, output, run, runKeeping } from './lib/run.mjs';
 

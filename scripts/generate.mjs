@@ -2,10 +2,10 @@
 // Python, and the diagram of the crates; with `--check` compares them instead.
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { architecturePage } from './lib/architecture.mjs';
+import { architecturePage } from './lib/checks/architecture.mjs';
 import { root } from './lib/paths.mjs';
 import { program } from './lib/programs.mjs';
-import { pythonFiles } from './lib/python-types.mjs';
+import { pythonFiles } from './lib/python/python-types.mjs';
 import { main, run } from './lib/run.mjs';
 
 await main(async () => {

@@ -7,8 +7,8 @@ await main(async () => {
   await setup();
   await buildPackage();
   await buildDemo();
-  const { launch, openPage, schemes, serve, viewports } = await import('../tests/browser/session.mjs');
-  const { pages } = await import('../tests/browser/pages.mjs');
+  const { launch, openPage, schemes, serve, viewports } = await import('../tests/browser/lib/session.mjs');
+  const { pages } = await import('../tests/browser/lib/pages.mjs');
   const server = await serve();
   const browser = await launch();
   let problems = 0;

@@ -1,11 +1,11 @@
 // Everything a fresh checkout needs besides git, rustup and Node. Uses Node built-ins only.
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { whenChanged } from './lib/build/stamp.mjs';
 import { cargoTool } from './lib/cargo-tool.mjs';
+import { atLeast, lockedVersion } from './lib/checks/versions.mjs';
 import { root, wasmTarget } from './lib/paths.mjs';
 import { isMain, main, output, run } from './lib/run.mjs';
-import { whenChanged } from './lib/stamp.mjs';
-import { atLeast, lockedVersion } from './lib/versions.mjs';
 
 const wasmPackVersion = '0.15.1';
 const say = (text) => console.log(`setup: ${text}`);

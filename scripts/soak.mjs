@@ -5,7 +5,7 @@
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
-import { verdicts } from './lib/flat.mjs';
+import { verdicts } from './lib/build/flat.mjs';
 import { root } from './lib/paths.mjs';
 import { main } from './lib/run.mjs';
 import { soakElements } from './soak/elements.mjs';

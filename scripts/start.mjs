@@ -1,7 +1,7 @@
 // Sets up, builds and serves the demo, and then builds the module of networks, with which the page reloads.
 // `--dev` serves the demo's sources with reloading; other arguments go to Vite (`npm start -- --port 8000 --open`).
 import { buildDemo, buildLibrary, buildQuickly } from './build.mjs';
-import { buildNetworks, networksMissing, withoutNetworks } from './lib/networks-later.mjs';
+import { buildNetworks, networksMissing, withoutNetworks } from './lib/build/networks-later.mjs';
 import { environment } from './lib/paths.mjs';
 import { main, run } from './lib/run.mjs';
 import { javascriptPackages, rust, wasmBindgen } from './setup.mjs';

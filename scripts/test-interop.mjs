@@ -1,5 +1,5 @@
 // Runs tests/interop: files and metrics exchanged with h5py, the RadarScenes package, MCAP's, rosbags and Prometheus's.
-import { pytest } from './lib/python.mjs';
+import { pytest } from './lib/python/python.mjs';
 import { main } from './lib/run.mjs';
 
 await main(() => pytest('interop', 'tests/interop/requirements.txt', 'tests/interop'));

@@ -3,7 +3,7 @@ import { readdirSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { buildPackage } from './build.mjs';
 import { environment, root, tools } from './lib/paths.mjs';
-import { virtualEnvironment } from './lib/python.mjs';
+import { virtualEnvironment } from './lib/python/python.mjs';
 import { isMain, main, run } from './lib/run.mjs';
 import { setup } from './setup.mjs';
 

@@ -1,11 +1,11 @@
 // Runs tests/python: the package of python/boresight from its sources, and the wheel that is built of its source distribution.
 import { existsSync, mkdirSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
+import { whenChanged } from './lib/build/stamp.mjs';
 import { root } from './lib/paths.mjs';
-import { pytest, virtualEnvironment } from './lib/python.mjs';
-import { preparePackage, source } from './lib/python-package.mjs';
+import { pytest, virtualEnvironment } from './lib/python/python.mjs';
+import { preparePackage, source } from './lib/python/python-package.mjs';
 import { main, run } from './lib/run.mjs';
-import { whenChanged } from './lib/stamp.mjs';
 
 const requirements = 'tests/python/requirements.txt';
 const folder = '.tools/python-package';

@@ -53,7 +53,7 @@ const PAGE = `<!doctype html><title>dashboard</title><link rel="icon" href="data
 
 /** Feeds five elements with `hz` frames a second for so long. */
 export async function soakElements({ milliseconds, hz = 20, sampleMs = SAMPLE_MS }) {
-  const { launch, openPage, serve } = await import('../../tests/browser/session.mjs');
+  const { launch, openPage, serve } = await import('../../tests/browser/lib/session.mjs');
   // The built package is the site.
   const server = await serve(root);
   const browser = await launch();

@@ -1,5 +1,5 @@
 // Pages of the built demo, visited in any order, with new seeds and cancelled work.
-import { generator } from '../lib/generator.mjs';
+import { generator } from '../lib/build/generator.mjs';
 
 const SAMPLE_MS = 4000;
 /** Noise: bytes of a heap, elements of a page, listeners, workers. */
@@ -7,8 +7,8 @@ const LEAST = { 'heap bytes': 6e6, nodes: 2000, listeners: 400, workers: 2 };
 
 /** Uses the demo for so long; what was done, samples of memory, and what went wrong. */
 export async function soakPages({ milliseconds, seed }) {
-  const { launch, openPage, serve } = await import('../../tests/browser/session.mjs');
-  const { pages } = await import('../../tests/browser/pages.mjs');
+  const { launch, openPage, serve } = await import('../../tests/browser/lib/session.mjs');
+  const { pages } = await import('../../tests/browser/lib/pages.mjs');
   const draw = generator(seed);
   const pick = (list) => list[Math.floor(draw() * list.length)];
   const server = await serve();

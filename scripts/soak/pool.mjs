@@ -4,7 +4,7 @@ import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { setFlagsFromString } from 'node:v8';
 import { runInNewContext } from 'node:vm';
-import { generator } from '../lib/generator.mjs';
+import { generator } from '../lib/build/generator.mjs';
 import { root } from '../lib/paths.mjs';
 
 const SAMPLE_MS = 2000;

@@ -1,9 +1,9 @@
 /** The dialog of “Copy as code”: by keys alone, with the clipboard and without, on desktop and phone. */
 import assert from 'node:assert/strict';
-import { findings } from './axe.mjs';
-import { openCode } from './code-dialog.mjs';
-import { runScript } from './code-run.mjs';
-import { browserTest } from './harness.mjs';
+import { openCode } from './lib/code-dialog.mjs';
+import { runScript } from './lib/code-run.mjs';
+import { browserTest } from './lib/harness.mjs';
+import { findings } from './site/axe.mjs';
 
 const path = '#/angle';
 const ready = (page) => page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');

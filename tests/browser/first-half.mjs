@@ -1,3 +1,3 @@
-import { together } from './together.mjs';
+import { together } from './lib/together.mjs';
 
 await together(0);

@@ -3,11 +3,11 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { brotliCompressSync } from 'node:zlib';
 import { initDrives, readDrive } from 'boresight';
-import { compact, readColumns } from '../../scripts/lib/bundled-drive.mjs';
+import { compact, readColumns } from '../../scripts/lib/build/bundled-drive.mjs';
 import { appModule } from './lib/app-module.mjs';
 import { delphi } from './lib/drives.mjs';
 
-const { tableOf } = await appModule('app/pages/mounting/compact.ts');
+const { tableOf } = await appModule('app/pages/mounting/drive/compact.ts');
 
 test('the bundled drive comes back from its compact form in a third of the bytes', async () => {
   const [radar, pose] = delphi();

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import * as boresight from 'boresight';
 import glue from '../../dist/wasm/boresight.js';
-import { generator } from '../../scripts/lib/generator.mjs';
+import { generator } from '../../scripts/lib/build/generator.mjs';
 import { callBy, goodCalls } from './lib/calls.mjs';
 import { spoilers, withExtremes } from './lib/extremes.mjs';
 

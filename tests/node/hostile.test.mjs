@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { before, test } from 'node:test';
 import * as boresight from 'boresight';
 import { createPool, Pool } from 'boresight/worker';
-import { generator } from '../../scripts/lib/generator.mjs';
+import { generator } from '../../scripts/lib/build/generator.mjs';
 import { rejectsTyped } from './lib/assert.mjs';
 import { callBy, goodCalls, live } from './lib/calls.mjs';
 import { lies, spoilt } from './lib/hostile.mjs';

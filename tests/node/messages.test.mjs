@@ -9,7 +9,7 @@ import { MessageWriter } from '@foxglove/rosmsg2-serialization';
 import * as boresight from 'boresight';
 import fc from 'fast-check';
 import { root } from '../../scripts/lib/paths.mjs';
-import { outputFolder } from '../browser/session.mjs';
+import { outputFolder } from '../browser/lib/session.mjs';
 import { drive, messages, pointCloud, radarScan } from '../viewers/messages.mjs';
 
 const require = createRequire(import.meta.url);

@@ -5,7 +5,7 @@ import { cpSync, mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } fr
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { placeholder } from '../../scripts/lib/networks-later.mjs';
+import { placeholder } from '../../scripts/lib/build/networks-later.mjs';
 import { root } from '../../scripts/lib/paths.mjs';
 
 test('the package compiles before the module of networks is there', () => {

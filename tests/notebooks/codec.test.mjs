@@ -4,7 +4,7 @@ import { spawnSync } from 'node:child_process';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { notebookFolder } from '../../scripts/lib/notebook.mjs';
+import { notebookFolder } from '../../scripts/lib/build/notebook.mjs';
 import { root } from '../../scripts/lib/paths.mjs';
 import { python } from './lib/host.mjs';
 

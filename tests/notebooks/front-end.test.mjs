@@ -3,9 +3,9 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { notebookFolder } from '../../scripts/lib/notebook.mjs';
+import { notebookFolder } from '../../scripts/lib/build/notebook.mjs';
 import { root } from '../../scripts/lib/paths.mjs';
-import { launch } from '../browser/session.mjs';
+import { launch } from '../browser/lib/session.mjs';
 
 let browser;
 let page;

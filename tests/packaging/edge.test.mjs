@@ -5,8 +5,8 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { openMetrics } from '../../examples/edge/src/metrics.js';
 import { root } from '../../scripts/lib/paths.mjs';
-import { skipWithoutBrowser } from '../browser/harness.mjs';
-import { launch, openPage } from '../browser/session.mjs';
+import { skipWithoutBrowser } from '../browser/lib/harness.mjs';
+import { launch, openPage } from '../browser/lib/session.mjs';
 import { consumer, run } from './consumer.mjs';
 
 const timeout = 120_000;

@@ -2,8 +2,8 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { skipWithoutBrowser } from '../browser/harness.mjs';
-import { launch, openPage, serve } from '../browser/session.mjs';
+import { skipWithoutBrowser } from '../browser/lib/harness.mjs';
+import { launch, openPage, serve } from '../browser/lib/session.mjs';
 import { consumer } from './consumer.mjs';
 
 let project;

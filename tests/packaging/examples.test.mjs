@@ -6,8 +6,8 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { isDeepStrictEqual } from 'node:util';
 import { root } from '../../scripts/lib/paths.mjs';
-import { skipWithoutBrowser } from '../browser/harness.mjs';
-import { launch, openPage, serve } from '../browser/session.mjs';
+import { skipWithoutBrowser } from '../browser/lib/harness.mjs';
+import { launch, openPage, serve } from '../browser/lib/session.mjs';
 import { consumer } from './consumer.mjs';
 
 const timeout = 120_000;

@@ -3,8 +3,8 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { skipWithoutBrowser } from '../browser/harness.mjs';
-import { launch } from '../browser/session.mjs';
+import { skipWithoutBrowser } from '../browser/lib/harness.mjs';
+import { launch } from '../browser/lib/session.mjs';
 import { consumer } from './consumer.mjs';
 import { servePages } from './pages.mjs';
 

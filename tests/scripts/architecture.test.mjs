@@ -3,8 +3,8 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { architecturePage, arrows, page } from '../../scripts/lib/architecture.mjs';
-import { layers, workspaceGraph } from '../../scripts/lib/dependency-rules.mjs';
+import { architecturePage, arrows, page } from '../../scripts/lib/checks/architecture.mjs';
+import { layers, workspaceGraph } from '../../scripts/lib/checks/dependency-rules.mjs';
 import { root } from '../../scripts/lib/paths.mjs';
 import { output } from '../../scripts/lib/run.mjs';
 

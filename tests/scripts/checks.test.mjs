@@ -2,11 +2,11 @@ import assert from 'node:assert/strict';
 import { randomBytes } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { problems, workspaceGraph } from '../../scripts/lib/dependency-rules.mjs';
-import { licenceAllowed, npmLicences } from '../../scripts/lib/licences.mjs';
-import { coreLimits, inlineLimits, overLimit, sizes } from '../../scripts/lib/sizes.mjs';
-import { atLeast, lockedVersion } from '../../scripts/lib/versions.mjs';
-import { countVectorOpcodes, vectorInstructions } from '../../scripts/lib/wasm-simd.mjs';
+import { problems, workspaceGraph } from '../../scripts/lib/checks/dependency-rules.mjs';
+import { licenceAllowed, npmLicences } from '../../scripts/lib/checks/licences.mjs';
+import { coreLimits, inlineLimits, overLimit, sizes } from '../../scripts/lib/checks/sizes.mjs';
+import { atLeast, lockedVersion } from '../../scripts/lib/checks/versions.mjs';
+import { countVectorOpcodes, vectorInstructions } from '../../scripts/lib/checks/wasm-simd.mjs';
 
 const graph = (crates) =>
   workspaceGraph({

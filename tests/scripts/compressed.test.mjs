@@ -16,8 +16,8 @@ import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { test } from 'node:test';
 import { brotliDecompressSync, gunzipSync } from 'node:zlib';
-import { brotli, compressFolder, serveFolder } from '../../scripts/lib/compressed.mjs';
-import { publish } from '../../scripts/lib/publish.mjs';
+import { brotli, compressFolder, serveFolder } from '../../scripts/lib/build/compressed.mjs';
+import { publish } from '../../scripts/lib/build/publish.mjs';
 
 test('files that gain are compressed both ways, once of the same bytes, and kept no longer than used', async () => {
   const [site, keep] = ['site', 'keep'].map((name) => mkdtempSync(join(tmpdir(), `boresight-${name}-`)));

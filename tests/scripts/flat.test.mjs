@@ -1,7 +1,7 @@
 // Whether memory is flat is told from the samples of a run.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { verdicts } from '../../scripts/lib/flat.mjs';
+import { verdicts } from '../../scripts/lib/build/flat.mjs';
 
 const samples = (of) => Array.from({ length: 90 }, (_, index) => of(index));
 

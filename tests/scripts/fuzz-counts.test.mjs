@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { fuzzCounts, fuzzTable } from '../../scripts/lib/fuzz-counts.mjs';
+import { fuzzCounts, fuzzTable } from '../../scripts/lib/checks/fuzz-counts.mjs';
 
 test('runs are those of the closing lines, or of the last progress before a crash', () => {
   const ended = '#2\tINITED\n#512\tDONE\nstat::number_of_executed_units: 512\nstat::average_exec_per_sec:     256\n';

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { cycles, importsOf, moduleProblems } from '../../scripts/lib/module-imports.mjs';
+import { cycles, importsOf, moduleProblems } from '../../scripts/lib/checks/module-imports.mjs';
 
 const imports = (sources) => importsOf(new Map(Object.entries(sources)));
 

@@ -3,7 +3,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { root } from '../../scripts/lib/paths.mjs';
-import { optionsModule, pythonFiles, resultsModule, snakeCase } from '../../scripts/lib/python-types.mjs';
+import { optionsModule, pythonFiles, resultsModule, snakeCase } from '../../scripts/lib/python/python-types.mjs';
 
 test("Python's types are those of the descriptions", () => {
   for (const [name, text] of pythonFiles())

@@ -3,9 +3,9 @@ import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'nod
 import { join, relative } from 'node:path';
 import { after, test } from 'node:test';
 import { findBrowser } from '../../scripts/lib/browser.mjs';
+import { digest, filesUnder, upToDate, whenChanged } from '../../scripts/lib/build/stamp.mjs';
 import { root } from '../../scripts/lib/paths.mjs';
 import { runKeeping } from '../../scripts/lib/run.mjs';
-import { digest, filesUnder, upToDate, whenChanged } from '../../scripts/lib/stamp.mjs';
 import { cargoCounts, nodeCounts, summary } from '../../scripts/lib/summary.mjs';
 
 const folder = mkdtempSync(join(root, 'tests', '.stamp-'));

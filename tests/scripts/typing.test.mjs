@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { readdirSync, readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { typingProblems } from '../../scripts/lib/typing-rules.mjs';
+import { typingProblems } from '../../scripts/lib/checks/typing-rules.mjs';
 
 const folder = new URL('../browser/', import.meta.url);
 

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { strFromU8, unzipSync } from 'fflate';
-import { foxeName, foxgloveFolder } from '../../scripts/lib/foxglove.mjs';
+import { foxeName, foxgloveFolder } from '../../scripts/lib/build/foxglove.mjs';
 
 /** What is in the file: text by name. */
 export const files = Object.fromEntries(

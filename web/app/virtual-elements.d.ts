@@ -4,7 +4,7 @@ declare module 'virtual:elements' {
     readonly type: string;
     readonly description: string;
   }
-  /** The custom elements by their manifest (scripts/lib/manifest.mjs). */
+  /** The custom elements by their manifest (scripts/lib/build/manifest.mjs). */
   export const elements: readonly {
     readonly tag: string;
     readonly name: string;

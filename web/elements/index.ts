@@ -1,28 +1,29 @@
 /** Radar plots as custom elements. Importing this defines them all. */
-import { BirdsEyeElement } from './birds-eye.ts';
-import { BoardElement } from './board.ts';
-import { CaptureElement } from './capture.ts';
-import { defineElement } from './define.ts';
-import { DopplerAzimuthElement } from './doppler-azimuth.ts';
-import { DriveElement } from './drive.ts';
-import { MountingAngleElement } from './mounting-angle.ts';
-import { OwnPlotElement } from './plot.ts';
-import { PointCloudElement } from './point-cloud.ts';
-import { RangeDopplerElement } from './range-doppler.ts';
-import { SpectrumElement } from './spectrum.ts';
+
+import { defineElement } from './base/define.ts';
+import { BirdsEyeElement } from './kinds/birds-eye.ts';
+import { BoardElement } from './kinds/board.ts';
+import { CaptureElement } from './kinds/capture.ts';
+import { DopplerAzimuthElement } from './kinds/doppler-azimuth.ts';
+import { DriveElement } from './kinds/drive.ts';
+import { MountingAngleElement } from './kinds/mounting-angle.ts';
+import { OwnPlotElement } from './kinds/plot.ts';
+import { PointCloudElement } from './kinds/point-cloud.ts';
+import { RangeDopplerElement } from './kinds/range-doppler.ts';
+import { SpectrumElement } from './kinds/spectrum.ts';
 
 export type { Layer, LayerContext } from '../plots/layers.ts';
 export type { Axes, AxisOptions, CursorPosition, PlotContent, PlotSeries, View } from '../plots/types.ts';
-export type { Ground, RadarName } from './birds-eye.ts';
-export type { DopplerFrame, MotionCurve } from './doppler-azimuth.ts';
-export type { Drawing, LegendItem, MovablePoints } from './drawing.ts';
+export type { Drawing, LegendItem, MovablePoints } from './base/drawing.ts';
 export type { NamedBytes } from './intake.ts';
-export type { Alarm, AngleOverTime } from './mounting-angle.ts';
-export type { OwnDrawing } from './plot.ts';
-export type { Place, PointCloud } from './point-cloud.ts';
+export type { Ground, RadarName } from './kinds/birds-eye.ts';
+export type { DopplerFrame, MotionCurve } from './kinds/doppler-azimuth.ts';
+export type { Alarm, AngleOverTime } from './kinds/mounting-angle.ts';
+export type { OwnDrawing } from './kinds/plot.ts';
+export type { Place, PointCloud } from './kinds/point-cloud.ts';
+export type { RangeDopplerFrame } from './kinds/range-doppler.ts';
+export type { NamedEstimate, ShownTarget } from './kinds/spectrum.ts';
 export { usePool } from './pool.ts';
-export type { RangeDopplerFrame } from './range-doppler.ts';
-export type { NamedEstimate, ShownTarget } from './spectrum.ts';
 export {
   BirdsEyeElement,
   BoardElement,

@@ -2,8 +2,8 @@
 import { drives } from '../lib/drive/drive.js';
 import { module } from './modules.js';
 
-export { Calibration } from '../lib/mounting/calibrate.js';
 export { scanMotion } from '../lib/drive/frame.js';
+export { Calibration } from '../lib/mounting/calibrate.js';
 export { BoresightError } from '../lib/runtime/errors.js';
 
 /** Makes drives and mounting angles ready, from the module inside. */

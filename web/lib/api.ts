@@ -7,7 +7,6 @@ export {
   configuredCalibration,
   tiCompensation,
 } from './array-calibration/array-calibration.js';
-export { Calibration, calibrationMethods, mergeCalibrations } from './mounting/calibrate.js';
 export { Capture, frameCells, joinCascade, processCube } from './capture/capture.js';
 export { strongestRegion } from './capture/region.js';
 export { calibrateDrive, calibrationReport, frameVerdicts, jointCalibration } from './drive/calibration.js';
@@ -29,6 +28,7 @@ export { sendConfiguration } from './live/configuration.js';
 export { RecentBytes } from './live/recent-bytes.js';
 export { replayBytes } from './live/replay.js';
 export { type SerialBytes, serialBytes } from './live/serial.js';
+export { Calibration, calibrationMethods, mergeCalibrations } from './mounting/calibrate.js';
 export { array, arrayPresets } from './radar/array.js';
 export { waveformPreset, waveformPresets, waveformSummary } from './radar/waveform.js';
 export { BoresightError, type ErrorDetails } from './runtime/errors.js';

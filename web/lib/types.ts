@@ -5,7 +5,6 @@
  */
 
 export type * from './array-calibration/types.js';
-export type * from './mounting/types.js';
 export type * from './capture/types.js';
 export type * from './drive/types.js';
 export type * from './estimate/types.js';
@@ -13,6 +12,7 @@ export type * from './generated/options.js';
 export type * from './generated/results.js';
 export type * from './image/types.js';
 export type * from './live/types.js';
+export type * from './mounting/types.js';
 export type * from './neural/types.js';
 export type * from './radar/types.js';
 export type * from './simulate/types.js';

@@ -1,6 +1,5 @@
 // The functions of the package as promises.
 import type * as arrayCalibration from '../lib/array-calibration/array-calibration.js';
-import type * as calibrate from '../lib/mounting/calibrate.js';
 import type * as capture from '../lib/capture/capture.js';
 import type * as region from '../lib/capture/region.js';
 import type * as drive from '../lib/drive/drive.js';
@@ -13,6 +12,7 @@ import type * as csv from '../lib/formats/csv.js';
 import type * as hdf5 from '../lib/formats/hdf5.js';
 import type * as npy from '../lib/formats/npy.js';
 import type * as image from '../lib/image/image.js';
+import type * as calibrate from '../lib/mounting/calibrate.js';
 import type * as array from '../lib/radar/array.js';
 import type * as waveform from '../lib/radar/waveform.js';
 import type * as version from '../lib/runtime/version.js';

@@ -7,8 +7,8 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { freePort } from '../../../scripts/lib/free-port.mjs';
 import { root } from '../../../scripts/lib/paths.mjs';
-import { recordings } from '../../browser/demo.mjs';
-import { launch, outputFolder, viewports } from '../../browser/session.mjs';
+import { recordings } from '../../browser/lib/demo.mjs';
+import { launch, outputFolder, viewports } from '../../browser/lib/session.mjs';
 
 /** The Python of a virtual environment with the package and the hosts (scripts/test-notebooks.mjs). */
 export const python = process.env.NOTEBOOKS_PYTHON;

@@ -1,6 +1,6 @@
 /** Captures in code: where their files are, and how they are opened. */
-import type { Loaded } from '../pages/capture/files.ts';
-import { isStudio } from '../pages/capture/studio.ts';
+import type { Loaded } from '../pages/capture/files/files.ts';
+import { isStudio } from '../pages/capture/files/studio.ts';
 import { inRepository, NEEDS } from './code.ts';
 import { quoted } from './literal.ts';
 import { flags } from './options.ts';

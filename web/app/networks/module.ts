@@ -1,6 +1,6 @@
 /**
  * Whether the site has the module that runs networks. A published site has; `npm start` serves the demo first and builds the
- * module behind it (scripts/lib/networks-later.mjs).
+ * module behind it (scripts/lib/build/networks-later.mjs).
  */
 declare const WITHOUT_NETWORKS: boolean;
 

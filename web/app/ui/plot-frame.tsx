@@ -1,10 +1,10 @@
 /** A plot of a page: an element, with what all plots of the demo have. */
 import type { ComponentChildren, ComponentType } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
-import { defineElement } from '../../elements/define.ts';
-import type { OwnDrawing } from '../../elements/plot.ts';
-import { OwnPlotElement } from '../../elements/plot.ts';
-import type { PlotElement } from '../../elements/plot-element.ts';
+import { defineElement } from '../../elements/base/define.ts';
+import type { PlotElement } from '../../elements/base/plot-element.ts';
+import type { OwnDrawing } from '../../elements/kinds/plot.ts';
+import { OwnPlotElement } from '../../elements/kinds/plot.ts';
 import type { CursorPosition, View } from '../../plots/types.ts';
 import { theme } from '../state/theme.ts';
 import { captionLines } from './caption.ts';

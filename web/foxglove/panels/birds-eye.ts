@@ -1,6 +1,6 @@
 /** Detections of a scan around the car, from above. */
-import { defineElement } from '../../elements/define.ts';
-import { PointCloudElement } from '../../elements/point-cloud.ts';
+import { defineElement } from '../../elements/base/define.ts';
+import { PointCloudElement } from '../../elements/kinds/point-cloud.ts';
 import type { Panel } from '../panel.ts';
 import { placeSettings, signSettings, topicSettings } from '../radar-settings.ts';
 import { choiceSetting, maybeNumber } from '../settings.ts';

@@ -1,6 +1,6 @@
 /** Range rates of a scan over azimuth, with the curve of what stands. */
-import { defineElement } from '../../elements/define.ts';
-import { DopplerAzimuthElement, type MotionCurve } from '../../elements/doppler-azimuth.ts';
+import { defineElement } from '../../elements/base/define.ts';
+import { DopplerAzimuthElement, type MotionCurve } from '../../elements/kinds/doppler-azimuth.ts';
 import { carriedMotion } from '../../plots/doppler.ts';
 import { methodStyle } from '../../plots/theme.ts';
 import type { Panel } from '../panel.ts';

@@ -1,8 +1,8 @@
 /** The mounting angle of a radar, calibrated in the panel as scans and motion come. */
 import type { CalibrationResult } from 'boresight';
 
-import { defineElement } from '../../elements/define.ts';
-import { MountingAngleElement } from '../../elements/mounting-angle.ts';
+import { defineElement } from '../../elements/base/define.ts';
+import { MountingAngleElement } from '../../elements/kinds/mounting-angle.ts';
 import { Follower } from '../../messages/follow.ts';
 import { hasMotion, motionOf } from '../../messages/motion.ts';
 import { scanOf } from '../../messages/scan.ts';

@@ -1,7 +1,7 @@
 /** Spectra of all chosen methods over each other, with truth, estimates and bounds; targets can be dragged. */
 import { useMemo } from 'preact/hooks';
-import { defineElement } from '../../../elements/define.ts';
-import { type NamedEstimate, SpectrumElement } from '../../../elements/spectrum.ts';
+import { defineElement } from '../../../elements/base/define.ts';
+import { type NamedEstimate, SpectrumElement } from '../../../elements/kinds/spectrum.ts';
 import { closes } from '../../../plots/spectra.ts';
 import { methodStyle } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';

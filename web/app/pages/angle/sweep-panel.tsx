@@ -1,7 +1,7 @@
 /** Monte-Carlo runs of the page's scene: error and share found against one setting, with the bound. */
 
 import { useMemo } from 'preact/hooks';
-import type { LegendItem } from '../../../elements/drawing.ts';
+import type { LegendItem } from '../../../elements/base/drawing.ts';
 import { fixed, percentage, significant } from '../../../plots/format.ts';
 import { toCsv } from '../../../plots/save.ts';
 import { methodStyle, TRUTH_STYLE } from '../../../plots/theme.ts';

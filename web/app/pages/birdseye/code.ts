@@ -9,7 +9,7 @@ import { Script } from '../../code/script.ts';
 import { command } from '../../code/shell.ts';
 import { api } from '../../data.ts';
 import type { Model } from '../../networks/models.ts';
-import type { Loaded } from '../capture/files.ts';
+import type { Loaded } from '../capture/files/files.ts';
 import { chainOptions, grid, type Input, input, type Radar, shownRadars, streetOptions } from './input.ts';
 import { imageOptions, images, isPending, networkFor } from './process.ts';
 import { type BirdseyeState, birdseyeCodec, birdseyeState } from './state.ts';

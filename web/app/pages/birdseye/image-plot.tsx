@@ -2,9 +2,9 @@
 
 import type { MethodInfo } from 'boresight';
 import { useMemo } from 'preact/hooks';
-import { BirdsEyeElement } from '../../../elements/birds-eye.ts';
-import { defineElement } from '../../../elements/define.ts';
-import type { PlotElement } from '../../../elements/plot-element.ts';
+import { defineElement } from '../../../elements/base/define.ts';
+import type { PlotElement } from '../../../elements/base/plot-element.ts';
+import { BirdsEyeElement } from '../../../elements/kinds/birds-eye.ts';
 import { decibels } from '../../../plots/format.ts';
 import { download, fileName, sideBySide } from '../../../plots/save.ts';
 import type { View } from '../../../plots/types.ts';

@@ -2,7 +2,7 @@
 import { computed } from '@preact/signals';
 import type { ArrayInput, CubeChainOptions, Mounting, StreetOptions, StreetScene, ViewGrid, Waveform } from 'boresight';
 import { api, describeError, type Problem } from '../../data.ts';
-import { boardLog, type Loaded, loaded, waiting } from '../capture/files.ts';
+import { boardLog, type Loaded, loaded, waiting } from '../capture/files/files.ts';
 import { type BirdseyeState, birdseyeState, MAX_CELLS, MAX_REACH_M, RADARS } from './state.ts';
 
 export interface Radar {

@@ -1,6 +1,6 @@
 /** The signs on the images, once for all of them. */
 
-import type { LegendItem } from '../../../elements/drawing.ts';
+import type { LegendItem } from '../../../elements/base/drawing.ts';
 import { Swatch } from '../../ui/swatch.tsx';
 import { TRUTH_COLOR } from './layers.ts';
 import { birdseyeState } from './state.ts';

@@ -6,7 +6,7 @@ import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';
 import { MainColumn } from '../../ui/main-column.tsx';
 import { ProgressLine, Stopped } from '../../ui/progress.tsx';
-import { fileNames, fileProblem, loaded, openBundled, waiting } from '../capture/files.ts';
+import { fileNames, fileProblem, loaded, openBundled, waiting } from '../capture/files/files.ts';
 import { Controls } from './controls.tsx';
 import { ImagePlot, saveAll } from './image-plot.tsx';
 import { gridProblem, input, problemOfInput, shownRadars } from './input.ts';

@@ -1,5 +1,5 @@
 import { preload } from '../../preload.ts';
-import { bundledAddresses } from './files.ts';
+import { bundledAddresses } from './files/files.ts';
 
 export function askAhead(params: URLSearchParams): void {
   const source = params.get('source') ?? 'bundled';

@@ -9,12 +9,12 @@ import { Script } from '../../code/script.ts';
 import { command, fileWord, heredoc } from '../../code/shell.ts';
 import { api } from '../../data.ts';
 import type { Model } from '../../networks/models.ts';
-import { compared } from './compare.ts';
-import { boardLog } from './files.ts';
-import { cellResults, networkFor, result, type Shown } from './process.ts';
-import { regions, type Trio, trio } from './regions.ts';
+import { compared } from './compare/compare.ts';
+import { cellResults, networkFor, result, type Shown } from './detections/process.ts';
+import { boardLog } from './files/files.ts';
+import { shownCell } from './plots/view.ts';
+import { regions, type Trio, trio } from './regions/regions.ts';
 import { type CaptureState, captureState, cellAngle, chainOptions, regionOptions } from './state.ts';
-import { shownCell } from './view.ts';
 
 interface CellMethod {
   method: Method;

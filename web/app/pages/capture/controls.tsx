@@ -16,14 +16,14 @@ import { Licence } from '../../ui/licence.tsx';
 import { MethodList } from '../../ui/method-list.tsx';
 import { NetworkNote } from '../../ui/network-note.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
-import { configured } from './array-calibration.ts';
-import { fileProblem, loaded, openBundled, openSimulated, reopenFiles, waiting } from './files.ts';
-import { openFiles } from './open.ts';
-import { ownCalibrations } from './own-calibrations.ts';
-import { cellUnavailable, networkFor, seesElevation, usedArray } from './process.ts';
-import { SIMULATED } from './simulated.ts';
+import { configured } from './array-calibration/in-effect.ts';
+import { ownCalibrations } from './array-calibration/own-calibrations.ts';
+import { cellUnavailable, networkFor, seesElevation, usedArray } from './detections/process.ts';
+import { fileProblem, loaded, openBundled, openSimulated, reopenFiles, waiting } from './files/files.ts';
+import { openFiles } from './files/open.ts';
+import { SIMULATED } from './files/simulated.ts';
+import { isStudio } from './files/studio.ts';
 import { captureCodec, captureState, update } from './state.ts';
-import { isStudio } from './studio.ts';
 
 const ARRAY_NAMES = {
   awr1642: 'AWR1642',

@@ -4,21 +4,15 @@ import { useAddress } from '../../state/address.ts';
 import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';
 import { MainColumn } from '../../ui/main-column.tsx';
-import { calibrationProblem, calibrationWanted, mending } from './array-calibration.ts';
-import { ArrayCalibrationPanel } from './array-calibration-panel.tsx';
-import { startBeforeAfter } from './before-after.ts';
-import { startCalibration } from './calibrate.ts';
-import { CellPanel } from './cell-panel.tsx';
-import { caption, start as startCompare } from './compare.ts';
-import { ComparePanel } from './compare-panel.tsx';
+import { startBeforeAfter } from './array-calibration/before-after.ts';
+import { startCalibration } from './array-calibration/calibrate.ts';
+import { calibrationProblem, calibrationWanted, mending } from './array-calibration/in-effect.ts';
+import { ArrayCalibrationPanel } from './array-calibration/panel.tsx';
+import { caption, start as startCompare } from './compare/compare.ts';
+import { ComparePanel } from './compare/compare-panel.tsx';
 import { Controls } from './controls.tsx';
-import { DetectionTable } from './detection-table.tsx';
-import { doubtsOf } from './doubts.ts';
-import { boardLog, fileProblem, filesWanted, loaded, openBundled, startFiles, type Waiting, waiting } from './files.ts';
-import { FrameBar } from './frame-bar.tsx';
-import { compare } from './match.ts';
-import { startOverTime } from './over-time.ts';
-import { CapturePoints } from './point-cloud.tsx';
+import { DetectionTable } from './detections/detection-table.tsx';
+import { compare } from './detections/match.ts';
 import {
   cellResults,
   processProblem,
@@ -29,17 +23,32 @@ import {
   usedArray,
   wasCancelled,
   working,
-} from './process.ts';
-import { startRangeAzimuth } from './range-azimuth.ts';
-import { RangeAzimuth } from './range-azimuth-plot.tsx';
-import { CellWhy, RangeDopplerMap, RangeProfile } from './range-plots.tsx';
-import { startRegions } from './regions.ts';
-import { RegionsPanel } from './regions-panel.tsx';
+} from './detections/process.ts';
+import { doubtsOf } from './files/doubts.ts';
+import {
+  boardLog,
+  fileProblem,
+  filesWanted,
+  loaded,
+  openBundled,
+  startFiles,
+  type Waiting,
+  waiting,
+} from './files/files.ts';
+import { isStudio } from './files/studio.ts';
+import { FrameBar } from './frames/frame-bar.tsx';
+import { CellPanel } from './plots/cell-panel.tsx';
+import { startOverTime } from './plots/over-time.ts';
+import { CapturePoints } from './plots/point-cloud.tsx';
+import { startRangeAzimuth } from './plots/range-azimuth.ts';
+import { RangeAzimuth } from './plots/range-azimuth-plot.tsx';
+import { CellWhy, RangeDopplerMap, RangeProfile } from './plots/range-plots.tsx';
+import { TimePlots } from './plots/time-plots.tsx';
+import { shownCell } from './plots/view.ts';
+import { startRegions } from './regions/regions.ts';
+import { RegionsPanel } from './regions/regions-panel.tsx';
 import { captureCodec, captureState, update } from './state.ts';
-import { isStudio } from './studio.ts';
 import { Summary } from './summary.tsx';
-import { TimePlots } from './time-plots.tsx';
-import { shownCell } from './view.ts';
 
 export function CapturePage() {
   useAddress('capture', {

@@ -16,7 +16,7 @@ import { choice, codec, type Field, flag, names, number, text } from '../../stat
 import { keptField } from '../../state/comparison.ts';
 import { COLOURED_BY } from '../../ui/space/points.ts';
 import { PRESETS } from '../angle/state.ts';
-import { idOf, ownOf } from './own-calibrations.ts';
+import { idOf, ownOf } from './array-calibration/own-calibrations.ts';
 
 /** `all`, or a frame's number. */
 const frame: Field<number | 'all'> = {

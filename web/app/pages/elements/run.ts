@@ -5,7 +5,7 @@ import binAddress from '../../../../recordings/awr1642/xwr16xx_crw_dca_module_20
 import datAddress from '../../../../recordings/awr1642/xwr16xx_crw_demo_visualizer_2018_1015v2.dat?url';
 import { aborted, describeError, type Problem, pool } from '../../data.ts';
 import { nested } from '../../schema-fields.ts';
-import { bundledDrive, fetched } from '../mounting/drive.ts';
+import { bundledDrive, fetched } from '../mounting/drive/drive.ts';
 import { resolved, type Sample } from './sample.ts';
 import { elementsState, sample } from './state.ts';
 

@@ -2,7 +2,7 @@
 import { useSignal } from '@preact/signals';
 import type { BoardFrame, RadarConfig } from 'boresight';
 import { useMemo } from 'preact/hooks';
-import { pointsOf } from '../../../elements/board.ts';
+import { pointsOf } from '../../../elements/kinds/board.ts';
 import { fixed, signed } from '../../../plots/format.ts';
 import { COLOR_BAR_WIDTH, cellExtent, colorBar, heatImage, limitsBelow, nearestCell } from '../../../plots/heat.ts';
 import { verticalLines } from '../../../plots/layers.ts';

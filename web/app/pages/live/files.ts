@@ -1,7 +1,7 @@
 /** Recordings and configurations that are opened here. */
 import datAddress from '../../../../recordings/awr1642/xwr16xx_crw_demo_visualizer_2018_1015v2.dat?url';
 import { describeError, FileProblem } from '../../data.ts';
-import { fetched } from '../mounting/drive.ts';
+import { fetched } from '../mounting/drive/drive.ts';
 import { loadBundledProfile, profile } from './profile.ts';
 import { liveProblem, replay } from './session.ts';
 

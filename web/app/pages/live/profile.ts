@@ -3,7 +3,7 @@ import { computed, signal } from '@preact/signals';
 import type { RadarConfig } from 'boresight';
 import cfgAddress from '../../../../recordings/awr1642/profile.cfg?url';
 import { api, describeError, type Problem } from '../../data.ts';
-import { fetched } from '../mounting/drive.ts';
+import { fetched } from '../mounting/drive/drive.ts';
 
 export interface Profile {
   name: string;

@@ -1,9 +1,9 @@
 /** A raw frame, processed in this tab. */
 import type { Detection } from 'boresight';
 import { useMemo } from 'preact/hooks';
-import { defineElement } from '../../../elements/define.ts';
-import { PointCloudElement } from '../../../elements/point-cloud.ts';
-import { RangeDopplerElement } from '../../../elements/range-doppler.ts';
+import { defineElement } from '../../../elements/base/define.ts';
+import { PointCloudElement } from '../../../elements/kinds/point-cloud.ts';
+import { RangeDopplerElement } from '../../../elements/kinds/range-doppler.ts';
 import { fixed, signed } from '../../../plots/format.ts';
 import { ElementFrame } from '../../ui/plot-frame.tsx';
 import type { RawShown } from './session.ts';

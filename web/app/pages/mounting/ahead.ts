@@ -1,6 +1,6 @@
 import { api } from '../../data.ts';
 import { preload } from '../../preload.ts';
-import { bundledFiles } from './drive.ts';
+import { bundledFiles } from './drive/drive.ts';
 import { mountingCodec } from './state.ts';
 
 export function askAhead(params: URLSearchParams): void {

@@ -4,11 +4,11 @@ import { expression, quoted } from '../../code/literal.ts';
 import { flags, withoutDefaults } from '../../code/options.ts';
 import { Script } from '../../code/script.ts';
 import { command, fileWord, flagged } from '../../code/shell.ts';
-import { bundledFiles, type Loaded, loaded, simulation } from './drive.ts';
-import { needsNetwork, ownNetwork } from './motion-network.ts';
-import { asked, jointOptions, type Options, optionsOf, results } from './process.ts';
+import { bundledFiles, type Loaded, loaded, simulation } from './drive/drive.ts';
+import { needsNetwork, ownNetwork } from './motion/motion-network.ts';
+import { about, WAYS, type Way } from './motion/ways.ts';
+import { asked, jointOptions, type Options, optionsOf, results } from './results/process.ts';
 import { type MountingState, mountingState } from './state.ts';
-import { about, WAYS, type Way } from './ways.ts';
 
 const FOLDER = 'recordings/delphi/';
 const FOUND = [

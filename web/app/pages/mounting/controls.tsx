@@ -4,13 +4,13 @@ import { Group, SelectField } from '../../ui/field.tsx';
 import { MethodList } from '../../ui/method-list.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
 import { Control } from './control.ts';
-import { loaded, sensor } from './drive.ts';
-import { Live } from './live.tsx';
-import { NetworkChoice } from './network-choice.tsx';
-import { jointPossible, shownMethod, where } from './process.ts';
-import { Source } from './source.tsx';
+import { loaded, sensor } from './drive/drive.ts';
+import { Source } from './drive/source.tsx';
+import { Live } from './live/panel.tsx';
+import { NetworkChoice } from './motion/network-choice.tsx';
+import { about, WAYS } from './motion/ways.ts';
+import { jointPossible, shownMethod, where } from './results/process.ts';
 import { minSpeed, mountingState, restoreDefaults, TRACKED_SPEED, USUAL_SPEED, update } from './state.ts';
-import { about, WAYS } from './ways.ts';
 
 export function Controls() {
   const state = mountingState.value;

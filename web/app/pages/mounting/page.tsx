@@ -6,11 +6,8 @@ import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';
 import { InTurn } from '../../ui/in-turn.tsx';
 import { MainColumn } from '../../ui/main-column.tsx';
-import { AnglePlot } from './angle-plot.tsx';
-import { BirdPlot } from './bird-plot.tsx';
 import type { GroupName } from './columns/fields.ts';
 import { Controls } from './controls.tsx';
-import { DopplerPlot } from './doppler-plot.tsx';
 import {
   chooseSource,
   driveProblem,
@@ -20,20 +17,23 @@ import {
   scans,
   sensor,
   start as startDrive,
-} from './drive.ts';
-import { frameView } from './frame.ts';
-import { Live } from './live.tsx';
-import { columnsDialog } from './own-files.ts';
-import { frame, playing, start as startClock, telling, time } from './playhead.ts';
-import { results, shownMethod, start as startProcess, where, working } from './process.ts';
-import { ResultsTable } from './results-table.tsx';
-import { SharePlot } from './share-plot.tsx';
+} from './drive/drive.ts';
+import { columnsDialog } from './drive/own-files.ts';
+import { frame, playing, start as startClock, telling, time } from './drive/playhead.ts';
+import { Progress, TimeBar } from './drive/time-bar.tsx';
+import { Live } from './live/panel.tsx';
+import { AnglePlot } from './plots/angle-plot.tsx';
+import { BirdPlot } from './plots/bird-plot.tsx';
+import { DopplerPlot } from './plots/doppler-plot.tsx';
+import { frameView } from './plots/frame.ts';
+import { SharePlot } from './plots/share-plot.tsx';
+import { frameKey } from './plots/time-plot.tsx';
+import { start as startTrajectory } from './plots/trajectory.ts';
+import { TrajectoryPlot } from './plots/trajectory-plot.tsx';
+import { results, shownMethod, start as startProcess, where, working } from './results/process.ts';
+import { ResultsTable } from './results/results-table.tsx';
+import { Verdict } from './results/verdict.tsx';
 import { minSpeed, mountingCodec, mountingState } from './state.ts';
-import { Progress, TimeBar } from './time-bar.tsx';
-import { frameKey } from './time-plot.tsx';
-import { start as startTrajectory } from './trajectory.ts';
-import { TrajectoryPlot } from './trajectory-plot.tsx';
-import { Verdict } from './verdict.tsx';
 
 /** The time a link asks for, until its drive is there. */
 let wantedTime: number | null = null;

@@ -5,7 +5,7 @@ import { optionsOf, percent } from '../../options.ts';
 import { choice, codec, flag, names, number, optional, text } from '../../state/codec.ts';
 import { seed } from '../../state/seed.ts';
 import { address } from './live/address.ts';
-import { WAYS, type Way } from './ways.ts';
+import { WAYS, type Way } from './motion/ways.ts';
 
 export const SPEEDS = ['0.5', '1', '2', '5', '10', '30'] as const;
 

@@ -1,8 +1,8 @@
 /** The scene that a network was tried on: truth, spectrum, what each method found, and how far off it is. */
 
 import { useEffect, useMemo, useRef } from 'preact/hooks';
-import { defineElement } from '../../../elements/define.ts';
-import { type NamedEstimate, SpectrumElement } from '../../../elements/spectrum.ts';
+import { defineElement } from '../../../elements/base/define.ts';
+import { type NamedEstimate, SpectrumElement } from '../../../elements/kinds/spectrum.ts';
 import { fixed, milliseconds } from '../../../plots/format.ts';
 import { download, fileName, toCsv } from '../../../plots/save.ts';
 import { methodStyle } from '../../../plots/theme.ts';

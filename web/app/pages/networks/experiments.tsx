@@ -2,7 +2,7 @@
 
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
-import type { LegendItem } from '../../../elements/drawing.ts';
+import type { LegendItem } from '../../../elements/base/drawing.ts';
 import { count, fixed } from '../../../plots/format.ts';
 import { type Layer, markers, polyline } from '../../../plots/layers.ts';
 import { toCsv } from '../../../plots/save.ts';

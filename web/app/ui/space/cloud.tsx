@@ -1,7 +1,7 @@
 /** A point cloud of a page: from above, or, once it is asked for, in space. */
 import { useMemo } from 'preact/hooks';
-import { defineElement } from '../../../elements/define.ts';
-import { type PointCloud, PointCloudElement } from '../../../elements/point-cloud.ts';
+import { defineElement } from '../../../elements/base/define.ts';
+import { type PointCloud, PointCloudElement } from '../../../elements/kinds/point-cloud.ts';
 import type { CursorPosition } from '../../../plots/types.ts';
 import { ElementFrame } from '../plot-frame.tsx';
 import type { ColouredBy, SpacePoint } from './points.ts';

@@ -1,8 +1,8 @@
 /** A calibration from a live server: connected when it is asked for, until another drive is chosen. It goes on while other pages are shown. */
 import { batch, computed, effect, signal } from '@preact/signals';
 import type { CalibrationOutlook, CalibrationResult } from 'boresight';
-import { defineElement } from '../../../../elements/define.ts';
-import { MountingAngleElement } from '../../../../elements/mounting-angle.ts';
+import { defineElement } from '../../../../elements/base/define.ts';
+import { MountingAngleElement } from '../../../../elements/kinds/mounting-angle.ts';
 import { type FollowCounts, type Followed, Follower } from '../../../../messages/follow.ts';
 import { hasMotion, MOTION_SCHEMAS, type MotionSample, motionOf } from '../../../../messages/motion.ts';
 import { hasPlaces, Places } from '../../../../messages/places.ts';

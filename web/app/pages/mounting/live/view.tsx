@@ -1,17 +1,17 @@
 /** What a live server sends, and the angle it comes to. */
 import { useEffect, useMemo, useRef } from 'preact/hooks';
-import { defineElement } from '../../../../elements/define.ts';
-import { DopplerAzimuthElement, type MotionCurve } from '../../../../elements/doppler-azimuth.ts';
-import { PointCloudElement } from '../../../../elements/point-cloud.ts';
+import { defineElement } from '../../../../elements/base/define.ts';
+import { DopplerAzimuthElement, type MotionCurve } from '../../../../elements/kinds/doppler-azimuth.ts';
+import { PointCloudElement } from '../../../../elements/kinds/point-cloud.ts';
 import { carriedMotion } from '../../../../plots/doppler.ts';
 import { count, fixed, signed } from '../../../../plots/format.ts';
 import { methodStyle, TRUTH_STYLE } from '../../../../plots/theme.ts';
 import { theme } from '../../../state/theme.ts';
 import { captionLines } from '../../../ui/caption.ts';
 import { ElementFrame } from '../../../ui/plot-frame.tsx';
-import { OutlookOf } from '../outlook.tsx';
+import { OutlookOf } from '../results/outlook.tsx';
+import { type Said, VerdictPanel, verdictOf } from '../results/verdict.tsx';
 import { mountingState } from '../state.ts';
-import { type Said, VerdictPanel, verdictOf } from '../verdict.tsx';
 import {
   angle,
   beginAnew,

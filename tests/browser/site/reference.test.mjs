@@ -1,0 +1,37 @@
+// The API reference as somebody who looks for an option uses it.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { skipWithoutBrowser } from '../lib/harness.mjs';
+import { launch, openPage, serve } from '../lib/session.mjs';
+
+test('an option is found from the demo by typing', { skip: skipWithoutBrowser }, async () => {
+  const browser = await launch();
+  const server = await serve();
+  try {
+    const { page, problems } = await openPage(browser, server.url);
+    // What still loads would be broken off by the click.
+    await page.waitForLoadState('networkidle');
+    await page.getByRole('link', { name: 'API reference' }).click();
+    await page.getByRole('heading', { level: 1, name: 'Boresight' }).waitFor();
+    await page.getByRole('cell', { name: 'radar plots as custom elements' }).waitFor();
+    await page.keyboard.press('/');
+    await page.keyboard.type('thresholdDb');
+    const found = page.getByRole('option', { name: /IaaOptions\.thresholdDb/ });
+    await found.first().click();
+    await page.getByText('Threshold below the strongest power (positive) (0 to 300 dB; default 40).').first().waitFor();
+    await page.keyboard.press('/');
+    await page.keyboard.type('cramerRaoBound');
+    await page
+      .getByRole('option', { name: /cramerRaoBound/ })
+      .first()
+      .waitFor();
+    await page.keyboard.press('ArrowDown');
+    await page.keyboard.press('Enter');
+    await page.getByRole('heading', { level: 1, name: 'Function cramerRaoBound' }).waitFor();
+    await page.locator('code', { hasText: "import { cramerRaoBound, init } from 'boresight';" }).waitFor();
+    assert.deepEqual(problems, []);
+  } finally {
+    await browser.close();
+    await server.close();
+  }
+});
