@@ -1,7 +1,7 @@
 //! Lines over a pair of axes, as SVG without text that has to be measured: plotters measures it by a page's document, which workers
 //! do not have.
 
-use crate::escape::escaped;
+use maud::{Markup, html};
 use std::fmt::Write as _;
 
 /// Size of the picture and of its margins (left, right, top, bottom), in its own units.
@@ -40,7 +40,7 @@ pub struct Chart {
 
 impl Chart {
     /// As an SVG element; what lies beyond the axes is cut off.
-    pub fn svg(&self, id: &str) -> String {
+    pub fn svg(&self, id: &str) -> Markup {
         let points = || {
             self.marks.iter().flat_map(|mark| match mark {
                 Mark::Line(_, points) => points.clone(),
@@ -58,100 +58,96 @@ impl Chart {
         let across = |value: f64| left + (value - x[0]) / (x[1] - x[0]) * (right - left);
         let up = |value: f64| bottom - (value - y[0]) / (y[1] - y[0]) * (bottom - top);
         let [width, height] = SIZE;
-        let title = escaped(&self.title);
-        let mut svg = format!(
-            "<svg viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\">\
-             <clipPath id=\"{id}\"><rect x=\"{left}\" y=\"{top}\" width=\"{}\" height=\"{}\"/></clipPath>",
-            right - left,
-            bottom - top,
-        );
-        let (labels, digits) = ticks(x);
-        for value in labels {
-            let at = across(value);
-            let _ = write!(
-                svg,
-                "<path class=\"grid\" d=\"M{at:.1} {top}V{bottom}\"/><text x=\"{at:.1}\" y=\"{:.1}\" \
-                 text-anchor=\"middle\">{value:.digits$}</text>",
-                bottom + 16.0,
-            );
-        }
-        let (labels, digits) = ticks(y);
-        for value in labels {
-            let at = up(value);
-            let _ = write!(
-                svg,
-                "<path class=\"grid\" d=\"M{left} {at:.1}H{right}\"/><text x=\"{:.1}\" y=\"{:.1}\" \
-                 text-anchor=\"end\">{value:.digits$}</text>",
-                left - 6.0,
-                at + 4.0,
-            );
-        }
-        let _ = write!(
-            svg,
-            "<path class=\"axis\" d=\"M{left} {top}V{bottom}H{right}\"/><text x=\"{:.1}\" y=\"{:.1}\" \
-             text-anchor=\"middle\">{}</text><text transform=\"rotate(-90)\" x=\"{:.1}\" y=\"14\" \
-             text-anchor=\"middle\">{}</text><g clip-path=\"url(#{id})\">",
-            0.5 * (left + right),
-            height - 6.0,
-            escaped(self.axes[0]),
-            -0.5 * (top + bottom),
-            escaped(self.axes[1]),
-        );
+        let (across_labels, across_digits) = ticks(x);
+        let (up_labels, up_digits) = ticks(y);
         let at = |point: [f64; 2]| {
             format!("{:.1} {:.1}", across(point[0]), up(point[1]).clamp(-1e4, 1e4))
         };
-        for mark in &self.marks {
-            match mark {
-                Mark::Line(class, points) => {
-                    let mut path = String::new();
-                    let mut before = "M";
-                    for point in points {
-                        if !(point[0].is_finite() && point[1].is_finite()) {
-                            before = "M";
-                            continue;
-                        }
-                        path = path + before + &at(*point);
-                        before = "L";
+        let drawn = |mark: &Mark| match mark {
+            Mark::Line(class, points) => html! { path class=(class) d=(line(points, at)) {} },
+            Mark::Band(class, points) => {
+                let there = points.iter().map(|p| [p[0], p[1]]);
+                let back = points.iter().rev().map(|p| [p[0], p[2]]);
+                let corners: Vec<String> = there.chain(back).map(at).collect();
+                html! { polygon class=(class) points=(corners.join(" ")) {} }
+            }
+            Mark::Level(class, value) => {
+                let at = up(*value).clamp(-1e4, 1e4);
+                html! { path class=(class) d=(format!("M{left} {at:.1}H{right}")) {} }
+            }
+            Mark::Upright(class, value) => {
+                let at = across(*value).clamp(-1e4, 1e4);
+                html! { path class=(class) d=(format!("M{at:.1} {top}V{bottom}")) {} }
+            }
+            Mark::Points(class, points) => {
+                let [mut bars, mut dots] = [String::new(), String::new()];
+                for [x, y, deviation] in points {
+                    if !(x.is_finite() && y.is_finite()) {
+                        continue;
                     }
-                    let _ = write!(svg, "<path class=\"{class}\" d=\"{path}\"/>");
-                }
-                Mark::Band(class, points) => {
-                    let there = points.iter().map(|p| [p[0], p[1]]);
-                    let back = points.iter().rev().map(|p| [p[0], p[2]]);
-                    let corners: Vec<String> = there.chain(back).map(at).collect();
-                    let corners = corners.join(" ");
-                    let _ = write!(svg, "<polygon class=\"{class}\" points=\"{corners}\"/>");
-                }
-                Mark::Level(class, value) => {
-                    let at = up(*value).clamp(-1e4, 1e4);
-                    let _ = write!(svg, "<path class=\"{class}\" d=\"M{left} {at:.1}H{right}\"/>");
-                }
-                Mark::Upright(class, value) => {
-                    let at = across(*value).clamp(-1e4, 1e4);
-                    let _ = write!(svg, "<path class=\"{class}\" d=\"M{at:.1} {top}V{bottom}\"/>");
-                }
-                Mark::Points(class, points) => {
-                    let [mut bars, mut dots] = [String::new(), String::new()];
-                    for [x, y, deviation] in points {
-                        if !(x.is_finite() && y.is_finite()) {
-                            continue;
-                        }
-                        // A line of no length, whose round ends make the dot.
-                        let _ = write!(dots, "M{}h0", at([*x, *y]));
-                        if deviation.is_finite() {
-                            let end = up(y + deviation).clamp(-1e4, 1e4);
-                            let _ = write!(bars, "M{}V{end:.1}", at([*x, y - deviation]));
-                        }
+                    // A line of no length, whose round ends make the dot.
+                    let _ = write!(dots, "M{}h0", at([*x, *y]));
+                    if deviation.is_finite() {
+                        let end = up(y + deviation).clamp(-1e4, 1e4);
+                        let _ = write!(bars, "M{}V{end:.1}", at([*x, y - deviation]));
                     }
-                    let _ = write!(
-                        svg,
-                        "<path class=\"bars\" d=\"{bars}\"/><path class=\"dots {class}\" d=\"{dots}\"/>"
-                    );
+                }
+                html! {
+                    path.bars d=(bars) {}
+                    path class={ "dots " (class) } d=(dots) {}
+                }
+            }
+        };
+        html! {
+            svg viewBox={ "0 0 " (width) " " (height) } role="img" aria-label=(self.title) {
+                clipPath id=(id) {
+                    rect x=(left) y=(top) width=(right - left) height=(bottom - top) {}
+                }
+                @for value in across_labels {
+                    path.grid d=(format!("M{:.1} {top}V{bottom}", across(value))) {}
+                    text x=(tenths(across(value))) y=(tenths(bottom + 16.0)) text-anchor="middle" {
+                        (format!("{value:.across_digits$}"))
+                    }
+                }
+                @for value in up_labels {
+                    path.grid d=(format!("M{left} {:.1}H{right}", up(value))) {}
+                    text x=(tenths(left - 6.0)) y=(tenths(up(value) + 4.0)) text-anchor="end" {
+                        (format!("{value:.up_digits$}"))
+                    }
+                }
+                path.axis d=(format!("M{left} {top}V{bottom}H{right}")) {}
+                text x=(tenths(0.5 * (left + right))) y=(tenths(height - 6.0)) text-anchor="middle" {
+                    (self.axes[0])
+                }
+                text transform="rotate(-90)" x=(tenths(-0.5 * (top + bottom))) y="14" text-anchor="middle" {
+                    (self.axes[1])
+                }
+                g clip-path={ "url(#" (id) ")" } {
+                    @for mark in &self.marks { (drawn(mark)) }
                 }
             }
         }
-        svg + "</g></svg>"
     }
+}
+
+/// A coordinate to a tenth.
+fn tenths(value: f64) -> String {
+    format!("{value:.1}")
+}
+
+/// The path through points; where one is not finite it is broken.
+fn line(points: &[[f64; 2]], at: impl Fn([f64; 2]) -> String) -> String {
+    let mut path = String::new();
+    let mut before = "M";
+    for point in points {
+        if !(point[0].is_finite() && point[1].is_finite()) {
+            before = "M";
+            continue;
+        }
+        path = path + before + &at(*point);
+        before = "L";
+    }
+    path
 }
 
 /// Smallest and largest finite number with a margin; 0 to 1 of none.
@@ -198,7 +194,7 @@ mod tests {
             [vec![], vec![Mark::Line("line", vec![[f64::NAN; 2], [1.0, 1e300], [2.0, -1e300]])]]
         {
             let chart = Chart { title: "t".into(), axes: ["x", "y"], limits: None, marks };
-            let svg = chart.svg("a");
+            let svg = chart.svg("a").into_string();
             assert!(svg.ends_with("</g></svg>") && !svg.contains("NaN"), "{svg}");
         }
     }
@@ -207,7 +203,8 @@ mod tests {
     fn points_have_a_bar_where_their_deviation_is_finite() {
         let points = [[0.0, 1.0, 0.5], [1.0, 2.0, f64::INFINITY], [2.0, f64::NAN, 1.0]];
         let marks = vec![Mark::Points("usual", points.to_vec()), Mark::Upright("event", 1.0)];
-        let svg = Chart { title: "<t>".into(), axes: ["x", "y"], limits: None, marks }.svg("a");
+        let svg = Chart { title: "<t>".into(), axes: ["x", "y"], limits: None, marks };
+        let svg = svg.svg("a").into_string();
         let path = |class: &str| {
             let start = svg.split(&format!("class=\"{class}\" d=\"")).nth(1).unwrap();
             start.split('"').next().unwrap().to_owned()

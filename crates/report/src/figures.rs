@@ -3,6 +3,7 @@
 use crate::chart::{Chart, Mark};
 use crate::recorder::Recorder;
 use boresight_mounting::{AngleEstimate, CalibrationOptions};
+use maud::{Markup, html};
 
 /// The angle against time with its standard deviation, the nominal angle and the limits of the alarm.
 pub(crate) fn angle(
@@ -10,7 +11,7 @@ pub(crate) fn angle(
     e: &AngleEstimate,
     options: &CalibrationOptions,
     id: &str,
-) -> String {
+) -> Markup {
     let last = e.angle_rad.to_degrees();
     let sigma = Some(e.sigma_rad.to_degrees()).filter(|sigma| sigma.is_finite()).unwrap_or(1.0);
     let nominal = options.nominal_rad.map(f64::to_degrees);
@@ -41,7 +42,7 @@ pub(crate) fn angle(
 }
 
 /// Speed and yaw rate of the car against time.
-pub(crate) fn drive(recorder: &Recorder, id: &str) -> String {
+pub(crate) fn drive(recorder: &Recorder, id: &str) -> Markup {
     let chart = |which: usize, title: &str, y: &'static str| {
         let points = recorder.states().map(|point| [point[0], point[which]]).collect();
         Chart {
@@ -52,6 +53,8 @@ pub(crate) fn drive(recorder: &Recorder, id: &str) -> String {
         }
         .svg(&format!("{id}-{which}"))
     };
-    chart(1, "Speed against time", "speed / (m/s)")
-        + &chart(2, "Yaw rate against time", "yaw rate / (deg/s)")
+    html! {
+        (chart(1, "Speed against time", "speed / (m/s)"))
+        (chart(2, "Yaw rate against time", "yaw rate / (deg/s)"))
+    }
 }

@@ -1,9 +1,8 @@
-//! What every page is made of: one document with its style, for light and dark screens and for paper, that asks for nothing from
-//! elsewhere and runs no scripts: its policy (CSP) allows its own style alone.
+//! Parts of every page: one document with its style for screens (light and dark) and paper. It loads nothing and runs no scripts:
+//! its content security policy allows its own style only.
 
-use crate::escape::escaped;
 use crate::page::About;
-use std::fmt::Write as _;
+use maud::{DOCTYPE, Markup, PreEscaped, Render, html};
 
 const STYLE: &str = "\
 :root{color-scheme:light;--ink:#1c1f24;--soft:#4d545e;--paper:#fff;--rule:#d8dce2;--grid:#e3e6ea;--axis:#8a929d;--line:#0b5fa5;\
@@ -31,48 +30,66 @@ code{font-size:.85rem;overflow-wrap:anywhere}section{break-inside:avoid}\
 /// Digest of [`STYLE`], by which the policy of a page allows it.
 const STYLE_SHA256: &str = "mSD6KTlYunIA3zayYulUuJ0xIPQFkj2OlKGnIT2UdrA=";
 
-/// A page with a title, whose body is made of HTML; `lead` says in words, after when and by what the page was made, how to read it.
-pub fn document(about: &About, title: &str, lead: &str, body: &str) -> String {
-    let [title, lead] = [title, lead].map(escaped);
-    format!(
-        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'sha256-{STYLE_SHA256}'; \
-         base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" content=\"width=device-width\">\n\
-         <title>{title}</title>\n<style>{STYLE}</style>\n<body>\n<h1>{title}</h1>\n<p class=\"small\">Made {} by Boresight {}. \
-         {lead}</p>\n{body}</body>\n</html>\n",
-        escaped(&about.made),
-        escaped(&about.version),
-    )
+/// A page with a title. `lead` is the paragraph, after when and by what the page was made, that explains how to read it.
+pub fn document(about: &About, title: &str, lead: &str, body: &Markup) -> String {
+    let policy = format!(
+        "default-src 'none'; style-src 'sha256-{STYLE_SHA256}'; base-uri 'none'; form-action 'none'"
+    );
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(policy);
+                meta name="viewport" content="width=device-width";
+                title { (title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                h1 { (title) }
+                p.small { "Made " (about.made) " by Boresight " (about.version) ". " (lead) }
+                (body)
+            }
+        }
+    };
+    page.into_string()
 }
 
-/// The section on what a report rests on: its files, at most so many of them, and how it was asked for.
-pub fn origin(html: &mut String, about: &About, most: usize) {
-    *html += "<section><h2>Where it comes from</h2>\n";
+/// The section on the sources of a report: its files, at most `most` of them, and the request.
+pub fn origin(about: &About, most: usize) -> Markup {
     let rows = about.sources.iter().take(most).map(|source| {
         (source.name.clone(), format!("{} bytes, SHA-256 {}", source.bytes, source.sha256))
     });
-    table(html, rows);
     let left = about.sources.len().saturating_sub(most);
-    if left > 0 {
-        let _ = writeln!(html, "<p class=\"small\">And {left} more files.</p>");
+    html! {
+        section {
+            h2 { "Where it comes from" }
+            (table(rows))
+            @if left > 0 {
+                p.small { "And " (left) " more files." }
+            }
+            p.small { "Asked for by " code { (about.asked) } }
+        }
     }
-    let _ = writeln!(
-        html,
-        "<p class=\"small\">Asked for by <code>{}</code></p></section>",
-        escaped(&about.asked)
-    );
 }
 
-/// Names with their values.
-pub fn table(html: &mut String, rows: impl Iterator<Item = (String, String)>) {
-    *html += "<table>\n";
-    for (name, value) in rows {
-        let _ = writeln!(html, "<tr><th>{}</th><td>{}</td></tr>", escaped(&name), phrase(&value));
+/// A table of names and values.
+pub fn table(rows: impl Iterator<Item = (String, String)>) -> Markup {
+    html! {
+        table {
+            @for (name, value) in rows {
+                tr { th { (name) } td { (Phrase(&value)) } }
+            }
+        }
     }
-    *html += "</table>\n";
 }
 
-/// A phrase as HTML shows it, with the sign for its deviations.
-pub fn phrase(text: &str) -> String {
-    escaped(text).replace("+- ", "\u{b1} ")
+/// A phrase, shown with the sign for standard deviations.
+#[derive(Debug, Clone, Copy)]
+pub struct Phrase<'a>(pub &'a str);
+
+impl Render for Phrase<'_> {
+    fn render_to(&self, buffer: &mut String) {
+        self.0.replace("+- ", "\u{b1} ").render_to(buffer);
+    }
 }

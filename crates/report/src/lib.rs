@@ -1,8 +1,7 @@
-//! What is told of a calibration: its facts in words, for a terminal and for paper, and a page of HTML to print or to keep, with
-//! verdict, plots, conditions and where it all came from. The page asks for nothing from elsewhere; other reports are made of the same parts.
+//! Calibration reports: facts as text, and a printable HTML page with the verdict, plots, conditions and sources. The page loads
+//! nothing; reports of fleets use the same parts.
 
 pub mod chart;
-pub mod escape;
 mod facts;
 mod figures;
 pub mod html;

@@ -1,12 +1,11 @@
 //! The page.
 
-use crate::escape::escaped;
 use crate::facts::{Fact, sentence};
 use crate::html::{document, origin, table};
 use crate::recorder::Recorder;
 use crate::{facts, figures};
-use boresight_mounting::{Alignment, AngleEstimate, CalibrationOptions, Outlook};
-use std::fmt::Write as _;
+use boresight_mounting::{Alignment, AngleEstimate, CalibrationOptions, Forecast, Outlook};
+use maud::{Markup, html};
 
 /// Where a report comes from.
 #[derive(Debug, Clone, Default)]
@@ -57,11 +56,10 @@ pub fn page(about: &About, radars: &[Radar]) -> String {
         if radars.len() == 1 { "" } else { "s" },
         numbers.join(", ")
     );
-    let mut body = String::new();
-    for radar in radars {
-        section(&mut body, radar);
-    }
-    origin(&mut body, about, usize::MAX);
+    let body = html! {
+        @for radar in radars { (section(radar)) }
+        (origin(about, usize::MAX))
+    };
     let lead =
         "Angles are those of boresight in the car's frame, counter-clockwise from straight ahead.";
     document(about, &title, lead, &body)
@@ -77,58 +75,57 @@ pub fn verdict(alignment: Option<Alignment>) -> (&'static str, &'static str) {
     }
 }
 
-fn section(html: &mut String, radar: &Radar) {
+fn section(radar: &Radar) -> Markup {
     let Radar { sensor, joint, options, estimate, outlook, recorder } = radar;
     let (word, class) = verdict(estimate.alignment);
-    let _ = writeln!(
-        html,
-        "<section><h2>Radar {sensor} <span class=\"verdict {class}\">{word}</span></h2>"
-    );
-    if let Some(sentence) = sentence(estimate, options) {
-        let _ = writeln!(html, "<p>{}</p>", escaped(&sentence));
-    }
-    for remark in &estimate.remarks {
-        let _ =
-            writeln!(html, "<p class=\"undecided\">Note: {}.</p>", escaped(&remark.to_string()));
-    }
-    let _ = writeln!(
-        html,
-        "<figure>{}<figcaption>Angle (blue) with its standard deviation; nominal angle (solid, all along) and what is allowed (red, dashed). Estimated by {}{}, {} ({}).</figcaption></figure>",
-        figures::angle(recorder, estimate, options, &format!("angle-{sensor}")),
-        options.method.title(),
-        if *joint { ", with all radars of the car" } else { "" },
-        options.motion_method().title(),
-        options.method.reference(),
-    );
-    *html += "</section><section><h3>What came out</h3>\n";
     let capital = |Fact { name, value }: Fact| {
         let mut letters = name.chars();
         let first = letters.next().map(|first| first.to_ascii_uppercase());
         (first.into_iter().chain(letters).collect(), value)
     };
-    table(html, facts(estimate).into_iter().map(capital));
-    *html += "</section><section><h3>The drive</h3>\n";
-    table(html, recorder.conditions().into_iter().map(|(name, value)| (name.into(), value)));
-    let _ = writeln!(
-        html,
-        "<figure>{}</figure></section>",
-        figures::drive(recorder, &format!("drive-{sensor}"))
-    );
-    if let Some(outlook) = outlook {
-        let _ = writeln!(
-            html,
-            "<section><h3>What driving on would bring</h3><p>{}</p>",
-            escaped(&outlook.advice)
-        );
-        let rows = outlook.forecasts.iter().map(|forecast| {
-            let minutes = match forecast.minutes {
-                Some(minutes) => format!("; enough after {minutes:.0} min"),
-                None => "; not enough within 20 min".into(),
-            };
-            let sigma = forecast.sigma_rad.to_degrees();
-            (forecast.instruction.into(), format!("+- {sigma:.3} deg after a minute{minutes}"))
-        });
-        table(html, rows);
-        *html += "</section>\n";
+    html! {
+        section {
+            h2 { "Radar " (sensor) " " span class={ "verdict " (class) } { (word) } }
+            @if let Some(sentence) = sentence(estimate, options) {
+                p { (sentence) }
+            }
+            @for remark in &estimate.remarks {
+                p.undecided { "Note: " (remark.to_string()) "." }
+            }
+            figure {
+                (figures::angle(recorder, estimate, options, &format!("angle-{sensor}")))
+                figcaption {
+                    "Angle (blue) with its standard deviation; nominal angle (solid, all along) and what is allowed (red, \
+                     dashed). Estimated by " (options.method.title())
+                    @if *joint { ", with all radars of the car" }
+                    ", " (options.motion_method().title()) " (" (options.method.reference()) ")."
+                }
+            }
+        }
+        section {
+            h3 { "What came out" }
+            (table(facts(estimate).into_iter().map(capital)))
+        }
+        section {
+            h3 { "The drive" }
+            (table(recorder.conditions().into_iter().map(|(name, value)| (name.into(), value))))
+            figure { (figures::drive(recorder, &format!("drive-{sensor}"))) }
+        }
+        @if let Some(outlook) = outlook {
+            section {
+                h3 { "What driving on would bring" }
+                p { (outlook.advice) }
+                (table(outlook.forecasts.iter().map(forecast)))
+            }
+        }
     }
+}
+
+fn forecast(forecast: &Forecast) -> (String, String) {
+    let minutes = match forecast.minutes {
+        Some(minutes) => format!("; enough after {minutes:.0} min"),
+        None => "; not enough within 20 min".into(),
+    };
+    let sigma = forecast.sigma_rad.to_degrees();
+    (forecast.instruction.into(), format!("+- {sigma:.3} deg after a minute{minutes}"))
 }

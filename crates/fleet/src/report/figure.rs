@@ -5,6 +5,7 @@ use crate::fleet::{DriveAngle, Vehicle, VehicleRadar};
 use crate::options::FleetOptions;
 use boresight_mounting::wrap;
 use boresight_report::chart::{Chart, Mark};
+use maud::Markup;
 
 /// Drives that are drawn of more; beside them those next to a knock and those far off, up to `SPECIAL` each.
 const DRAWN: usize = 200;
@@ -18,7 +19,7 @@ pub(super) fn angles(
     radar: &VehicleRadar,
     options: &FleetOptions,
     id: &str,
-) -> (String, String) {
+) -> (Markup, String) {
     // Angles are drawn about one of them, so that those near half a turn stay together.
     let about = radar.nominal_rad.filter(|n| n.is_finite()).unwrap_or(radar.angle_rad);
     let near = |rad: f64| degrees(about + wrap(rad - about));

@@ -9,10 +9,8 @@ use crate::fleet::Fleet;
 use crate::options::FleetOptions;
 use crate::report::attention::Attention;
 use boresight_report::About;
-use boresight_report::escape::escaped;
-use boresight_report::html::{document, origin, phrase};
-use std::fmt::Write as _;
-use vehicle::cell;
+use boresight_report::html::{Phrase, document, origin};
+use maud::{Markup, html};
 use words::{count, degrees, shown};
 
 /// Vehicles with a section; no more begin once the page has so many bytes.
@@ -30,34 +28,37 @@ const LIST: usize = 10;
 pub fn page(about: &About, fleet: &Fleet, options: &FleetOptions) -> String {
     let needing = attention::attention(fleet);
     let (sections, shown_vehicles) = sections(fleet, &needing, options);
-    let mut body = format!(
-        "<section><h2>The fleet</h2>\n<p>{}.</p>\n<p>{}.</p></section>\n",
-        escaped(&words::extent(fleet)),
-        escaped(&words::logs(&fleet.logs))
-    );
-    attention_section(&mut body, fleet, &needing, &shown_vehicles);
-    failures(&mut body, fleet);
-    radars(&mut body, fleet);
     let left = fleet.vehicles.len() - shown_vehicles.len();
-    if left > 0 {
-        let _ = writeln!(
-            body,
-            "<p>Shown below are {} of {}, those that need attention first; {} left out. \
-             <code>fleet.json</code> and the Parquet files hold all.</p>",
-            shown_vehicles.len(),
-            count(fleet.vehicles.len() as u64, "vehicle"),
-            if left == 1 { "1 is".into() } else { format!("{left} are") },
-        );
-    }
-    body += &sections;
-    origin(&mut body, about, ROWS);
+    let body = html! {
+        section {
+            h2 { "The fleet" }
+            p { (words::extent(fleet)) "." }
+            p { (words::logs(&fleet.logs)) "." }
+        }
+        (attention_section(fleet, &needing, &shown_vehicles))
+        (failures(fleet))
+        (radars(fleet))
+        @if left > 0 {
+            p {
+                "Shown below are " (shown_vehicles.len()) " of " (count(fleet.vehicles.len() as u64, "vehicle"))
+                ", those that need attention first; " (left) (if left == 1 { " is" } else { " are" }) " left out. "
+                code { "fleet.json" } " and the Parquet files hold all."
+            }
+        }
+        @for section in &sections { (section) }
+        (origin(about, ROWS))
+    };
     let lead =
         "Angles are those of boresight in the car's frame, counter-clockwise from straight ahead.";
     document(about, "Mounting angles of a fleet", lead, &body)
 }
 
 /// The vehicles' sections, and which vehicles have one.
-fn sections(fleet: &Fleet, needing: &[Attention], options: &FleetOptions) -> (String, Vec<usize>) {
+fn sections(
+    fleet: &Fleet,
+    needing: &[Attention],
+    options: &FleetOptions,
+) -> (Vec<Markup>, Vec<usize>) {
     let mut first = vec![vec![]; fleet.vehicles.len()];
     let mut order = vec![];
     for need in needing {
@@ -67,128 +68,139 @@ fn sections(fleet: &Fleet, needing: &[Attention], options: &FleetOptions) -> (St
         first[need.vehicle].push(need.radar);
     }
     order.extend((0..fleet.vehicles.len()).filter(|&vehicle| first[vehicle].is_empty()));
-    let mut html = String::new();
-    let mut there = vec![];
+    let (mut sections, mut there, mut bytes) = (vec![], vec![], 0);
     for vehicle in order.into_iter().take(SECTIONS) {
-        if html.len() > BYTES {
+        if bytes > BYTES {
             break;
         }
-        vehicle::section(&mut html, vehicle, &fleet.vehicles[vehicle], &first[vehicle], options);
+        let section = vehicle::section(vehicle, &fleet.vehicles[vehicle], &first[vehicle], options);
+        bytes += section.0.len();
+        sections.push(section);
         there.push(vehicle);
     }
-    (html, there)
+    (sections, there)
 }
 
-fn attention_section(html: &mut String, fleet: &Fleet, needing: &[Attention], there: &[usize]) {
-    *html += "<section><h2>What needs attention</h2>\n";
-    match attention::counts(needing) {
-        Some(counts) => {
-            let radars = count(needing.len() as u64, "radar");
-            let _ = writeln!(html, "<p>{radars}: {counts}.</p>");
+fn attention_section(fleet: &Fleet, needing: &[Attention], there: &[usize]) -> Markup {
+    let summary = match attention::counts(needing) {
+        Some(counts) => format!("{}: {counts}.", count(needing.len() as u64, "radar")),
+        None if fleet.vehicles.is_empty() => "No drive was calibrated.".into(),
+        None => "No radar.".into(),
+    };
+    let all = fleet.vehicles.iter().flat_map(|vehicle| &vehicle.radars);
+    let free = all.filter(|radar| radar.nominal_rad.is_none()).count();
+    let row = |need: &Attention| {
+        let vehicle = &fleet.vehicles[need.vehicle];
+        html! {
+            td.long {
+                @if there.contains(&need.vehicle) {
+                    a href={ "#vehicle-" (need.vehicle) } { (shown(&vehicle.name)) }
+                } @else {
+                    (shown(&vehicle.name))
+                }
+            }
+            td { (vehicle.radars[need.radar].sensor) }
+            td.long {
+                @for (place, (need, how)) in need.needs.iter().enumerate() {
+                    @if place > 0 { "; " }
+                    b { (need.title()) } " " (Phrase(how))
+                }
+            }
         }
-        None if fleet.vehicles.is_empty() => *html += "<p>No drive was calibrated.</p>\n",
-        None => *html += "<p>No radar.</p>\n",
+    };
+    let title = "What needs attention";
+    html! {
+        section {
+            h2 { (title) }
+            p { (summary) }
+            @if free > 0 {
+                p.undecided {
+                    "Of " (count(free as u64, "radar"))
+                    " the nominal angle is not known, so nothing says whether they are aligned."
+                }
+            }
+            @if !needing.is_empty() {
+                (columns(title, &["Vehicle", "Radar", "Why"], needing.iter().take(LINES).map(row)))
+                (left_out(needing.len().saturating_sub(LINES)))
+            }
+        }
     }
-    let all = || fleet.vehicles.iter().flat_map(|vehicle| &vehicle.radars);
-    let free = all().filter(|radar| radar.nominal_rad.is_none()).count();
-    if free > 0 {
-        let _ = writeln!(
-            html,
-            "<p class=\"undecided\">Of {} the nominal angle is not known, so nothing says whether they are aligned.</p>",
-            count(free as u64, "radar")
-        );
-    }
-    if !needing.is_empty() {
-        let rows = needing.iter().take(LINES).map(|need| {
-            let vehicle = &fleet.vehicles[need.vehicle];
-            let name = escaped(&shown(&vehicle.name));
-            let name = match there.contains(&need.vehicle) {
-                true => format!("<a href=\"#vehicle-{}\">{name}</a>", need.vehicle),
-                false => name,
-            };
-            let why: Vec<String> = need
-                .needs
-                .iter()
-                .map(|(need, how)| format!("<b>{}</b> {}", need.title(), phrase(how)))
-                .collect();
-            format!(
-                "<td class=\"long\">{name}</td><td>{}</td><td class=\"long\">{}</td>",
-                vehicle.radars[need.radar].sensor,
-                why.join("; ")
-            )
-        });
-        columns(html, "What needs attention", &["Vehicle", "Radar", "Why"], rows);
-        left_out(html, needing.len().saturating_sub(LINES));
-    }
-    *html += "</section>\n";
 }
 
-fn failures(html: &mut String, fleet: &Fleet) {
-    if fleet.failures.is_empty() {
-        return;
-    }
-    *html += "<section><h2>Logs that failed</h2>\n";
+fn failures(fleet: &Fleet) -> Markup {
     let rows = fleet.failures.iter().take(ROWS).map(|failure| {
-        cell(&shown(&failure.code), "long")
-            + &cell(&failure.count.to_string(), "")
-            + &cell(&shown(&failure.message), "long")
-            + &cell(&shown(&failure.path), "long")
+        html! {
+            td.long { (shown(&failure.code)) }
+            td { (failure.count) }
+            td.long { (Phrase(&shown(&failure.message))) }
+            td.long { (shown(&failure.path)) }
+        }
     });
-    columns(html, "Logs that failed", &["Code", "Logs", "First message", "Its log"], rows);
-    left_out(html, fleet.failures.len().saturating_sub(ROWS));
-    *html += "</section>\n";
+    let title = "Logs that failed";
+    html! {
+        @if !fleet.failures.is_empty() {
+            section {
+                h2 { (title) }
+                (columns(title, &["Code", "Logs", "First message", "Its log"], rows))
+                (left_out(fleet.failures.len().saturating_sub(ROWS)))
+            }
+        }
+    }
 }
 
-fn radars(html: &mut String, fleet: &Fleet) {
-    if fleet.radars.is_empty() {
-        return;
-    }
-    *html += "<section><h2>Radars of all vehicles</h2>\n<p class=\"small\">How the vehicles' angles off nominal, or angles where not all \
-              have a nominal one, lie about each other. The spread is beyond what their deviations have.</p>\n";
+fn radars(fleet: &Fleet) -> Markup {
+    let number = |value: f64, digits: usize, unit: &str| match words::sane(value).is_finite() {
+        true => format!("{value:.digits$}{unit}"),
+        false => "not determined".into(),
+    };
     let rows = fleet.radars.iter().take(ROWS).map(|radar| {
-        let number = |value: f64, digits: usize, unit: &str| match words::sane(value).is_finite() {
-            true => format!("{value:.digits$}{unit}"),
-            false => "not determined".into(),
-        };
         let names: Vec<String> = radar.outlying.iter().take(LIST).map(|name| shown(name)).collect();
-        let mut names = names.join(", ");
-        if radar.outlying.is_empty() {
-            names += "none";
-        } else if radar.outlying.len() > LIST {
-            let _ = write!(names, " and {} more", radar.outlying.len() - LIST);
+        html! {
+            td { (radar.sensor) }
+            td { (radar.vehicles) }
+            td { (number(degrees(radar.centre_rad), 3, " deg")) }
+            td { (number(degrees(radar.spread_rad), 3, " deg")) }
+            td { (number(radar.threshold, 1, " deviations")) }
+            td.long {
+                (names.join(", "))
+                @if names.is_empty() { "none" }
+                @if radar.outlying.len() > LIST { " and " (radar.outlying.len() - LIST) " more" }
+            }
         }
-        [
-            radar.sensor.to_string(),
-            radar.vehicles.to_string(),
-            number(degrees(radar.centre_rad), 3, " deg"),
-            number(degrees(radar.spread_rad), 3, " deg"),
-            number(radar.threshold, 1, " deviations"),
-        ]
-        .map(|text| cell(&text, ""))
-        .concat()
-            + &cell(&names, "long")
     });
     let names = ["Radar", "Vehicles", "Centre", "Spread", "Unlike from", "Unlike the others"];
-    columns(html, "Radars of all vehicles", &names, rows);
-    left_out(html, fleet.radars.len().saturating_sub(ROWS));
-    *html += "</section>\n";
-}
-
-/// A table of several columns, whose rows are HTML; where it is wider than the page it is scrolled, also by keys.
-fn columns(html: &mut String, title: &str, names: &[&str], rows: impl Iterator<Item = String>) {
-    let names: String = names.iter().map(|name| format!("<th>{name}</th>")).collect();
-    let _ = writeln!(
-        html,
-        "<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"{title}\"><table><thead><tr>{names}</tr></thead>\n<tbody>"
-    );
-    for row in rows {
-        let _ = writeln!(html, "<tr>{row}</tr>");
+    let title = "Radars of all vehicles";
+    html! {
+        @if !fleet.radars.is_empty() {
+            section {
+                h2 { (title) }
+                p.small {
+                    "How the vehicles' angles off nominal, or angles where not all have a nominal one, lie about each other. The \
+                     spread is beyond what their deviations have."
+                }
+                (columns(title, &names, rows))
+                (left_out(fleet.radars.len().saturating_sub(ROWS)))
+            }
+        }
     }
-    *html += "</tbody></table></div>\n";
 }
 
-fn left_out(html: &mut String, rows: usize) {
-    if rows > 0 {
-        let _ = writeln!(html, "<p>And {rows} more, which <code>fleet.json</code> holds.</p>");
+/// A table of several columns; where it is wider than the page it is scrolled, also by keys.
+fn columns(title: &str, names: &[&str], rows: impl Iterator<Item = Markup>) -> Markup {
+    html! {
+        div.wide role="region" tabindex="0" aria-label=(title) {
+            table {
+                thead { tr { @for name in names { th { (name) } } } }
+                tbody { @for row in rows { tr { (row) } } }
+            }
+        }
+    }
+}
+
+fn left_out(rows: usize) -> Markup {
+    html! {
+        @if rows > 0 {
+            p { "And " (rows) " more, which " code { "fleet.json" } " holds." }
+        }
     }
 }

@@ -6,28 +6,22 @@ use super::{LIST, figure};
 use crate::fleet::{AngleSource, CarValues, Vehicle, VehicleRadar};
 use crate::options::FleetOptions;
 use boresight_mounting::wrap;
-use boresight_report::escape::escaped;
-use boresight_report::html::{phrase, table};
+use boresight_report::html::table;
 use boresight_report::{Place, verdict, within};
+use maud::{Markup, html};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// Radars of a vehicle that are drawn; no car has more.
 const RADARS: usize = 12;
 
-/// Writes the section of the vehicle with that number; the radars in `first` come first.
+/// The section of the vehicle with that number; the radars in `first` come first.
 pub(super) fn section(
-    html: &mut String,
     number: usize,
     vehicle: &Vehicle,
     first: &[usize],
     options: &FleetOptions,
-) {
-    let _ = writeln!(
-        html,
-        "<article id=\"vehicle-{number}\"><h2>{}</h2>",
-        escaped(&shown(&vehicle.name))
-    );
+) -> Markup {
     let hours = vehicle.drives.iter().map(|drive| drive.duration_s).sum::<f64>() / 3600.0;
     let mut line = count(vehicle.drives.len() as u64, "drive");
     if hours.is_finite() && hours < 1e6 {
@@ -37,66 +31,62 @@ pub(super) fn section(
         };
     }
     line += &span(vehicle.drives.iter()).map_or_else(String::new, |span| format!(", {span}"));
-    let _ = writeln!(html, "<p>{}.</p>", escaped(&line));
     let mut order: Vec<usize> = (0..vehicle.radars.len()).collect();
+    let left = order.len().saturating_sub(RADARS);
     // Only where some are left out are those moved that must be seen.
-    if order.len() > RADARS {
+    if left > 0 {
         order.sort_by_key(|radar| !first.contains(radar));
-        let left = order.split_off(RADARS).len();
+        order.truncate(RADARS);
         order.sort_unstable();
-        let _ = writeln!(
-            html,
-            "<p>{} not shown: <code>fleet.json</code> has all.</p>",
-            if left == 1 { "1 radar is".into() } else { format!("{left} radars are") }
-        );
-    }
-    for place in order {
-        radar_section(
-            html,
-            &format!("v{number}r{place}"),
-            vehicle,
-            &vehicle.radars[place],
-            options,
-        );
     }
     let rows = vehicle.shared.map(shared).unwrap_or_default();
-    if !rows.is_empty() {
-        *html += "<section><h3>What its drives share</h3>\n";
-        table(html, rows.into_iter());
-        *html += "</section>\n";
+    html! {
+        article id={ "vehicle-" (number) } {
+            h2 { (shown(&vehicle.name)) }
+            p { (line) "." }
+            @if left > 0 {
+                p {
+                    (left) (if left == 1 { " radar is" } else { " radars are" }) " not shown: " code { "fleet.json" } " has all."
+                }
+            }
+            @for place in order {
+                (radar_section(&format!("v{number}r{place}"), vehicle, &vehicle.radars[place], options))
+            }
+            @if !rows.is_empty() {
+                section {
+                    h3 { "What its drives share" }
+                    (table(rows.into_iter()))
+                }
+            }
+        }
     }
-    *html += "</article>\n";
 }
 
 fn radar_section(
-    html: &mut String,
     id: &str,
     vehicle: &Vehicle,
     radar: &VehicleRadar,
     options: &FleetOptions,
-) {
+) -> Markup {
     let (word, class) = verdict(radar.alignment);
-    let _ = writeln!(
-        html,
-        "<section><h3>Radar {} <span class=\"verdict {class}\">{word}</span></h3>",
-        radar.sensor
-    );
-    if let Some((nominal_rad, alignment)) = radar.nominal_rad.zip(radar.alignment)
-        && degrees(nominal_rad).is_finite()
-    {
-        let place = Place {
-            off_rad: wrap(radar.angle_rad - nominal_rad),
-            sigma_rad: radar.sigma_rad,
-            nominal_rad,
-            alarm_rad: options.alarm_rad,
-            alignment,
-        };
-        let _ = writeln!(html, "<p>{}</p>", escaped(&place.sentence("the drives do")));
-    }
+    let place = radar.nominal_rad.zip(radar.alignment).map(|(nominal_rad, alignment)| Place {
+        off_rad: wrap(radar.angle_rad - nominal_rad),
+        sigma_rad: radar.sigma_rad,
+        nominal_rad,
+        alarm_rad: options.alarm_rad,
+        alignment,
+    });
     let (svg, caption) = figure::angles(vehicle, radar, options, id);
-    let _ = writeln!(html, "<figure>{svg}<figcaption>{caption}</figcaption></figure>");
-    table(html, facts(vehicle, radar).into_iter());
-    *html += "</section>\n";
+    html! {
+        section {
+            h3 { "Radar " (radar.sensor) " " span class={ "verdict " (class) } { (word) } }
+            @if let Some(place) = place.filter(|place| degrees(place.nominal_rad).is_finite()) {
+                p { (place.sentence("the drives do")) }
+            }
+            figure { (svg) figcaption { (caption) } }
+            (table(facts(vehicle, radar).into_iter()))
+        }
+    }
 }
 
 fn facts(vehicle: &Vehicle, radar: &VehicleRadar) -> Vec<(String, String)> {
@@ -189,9 +179,4 @@ fn shared(values: CarValues) -> Vec<(String, String)> {
         Some((name.into(), value))
     });
     told.collect()
-}
-
-/// A cell.
-pub(super) fn cell(text: &str, class: &str) -> String {
-    format!("<td class=\"{class}\">{}</td>", phrase(text))
 }
