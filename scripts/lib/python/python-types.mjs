@@ -1,5 +1,5 @@
-// Python's types of options and results, and the flags of options, from what `npm run generate` writes from the descriptions in Rust: the
-// JSON Schema of options, and the TypeScript types of both.
+// Python's types of options and results, and the flags of options, from the JSON Schemas that `npm run generate` writes from
+// the descriptions in Rust.
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from '../paths.mjs';
@@ -21,6 +21,8 @@ const RESULTS = ['CalibrationResult', 'CalibrationOutlook', 'Source', 'Fleet'];
 
 /** `minSpeedMps` as Python writes it: `min_speed_mps`. */
 export const snakeCase = (name) => name.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`);
+
+const constants = (oneOf) => oneOf.map((one) => one.const);
 
 /** Text broken between words. */
 function wrapped(text, width) {
@@ -47,75 +49,40 @@ function literal(prefix, values) {
   return line.length <= WIDTH ? line : `${prefix}Literal[\n${values.map((value) => `    "${value}",\n`).join('')}]`;
 }
 
-/** What TypeScript declares: choices by name, and interfaces as their fields with type and words. */
-function declarations(text) {
-  const choices = {};
-  for (const [, name, values] of text.matchAll(/^export type (\w+) =\s+((?:\s*\|?\s*'[^']*')+);/gm))
-    choices[name] = [...values.matchAll(/'([^']*)'/g)].map(([, value]) => value);
-  const interfaces = {};
-  for (const [, comment, name, body] of text.matchAll(
-    /(?:\/\*\*((?:(?!\*\/)[\s\S])*)\*\/\n)?export interface (\w+) \{\n([\s\S]*?)^\}/gm,
-  )) {
-    const fields = [...body.matchAll(/\/\*\*((?:(?!\*\/)[\s\S])*)\*\/\s+(?:readonly )?(\w+)(\??): ([^;]+);/g)];
-    interfaces[name] = {
-      words: words(comment ?? ''),
-      fields: fields.map(([, comment, field, mark, type]) => ({
-        field,
-        type,
-        optional: mark === '?',
-        words: words(comment),
-      })),
-    };
+/** A type of results in Python; `use` hears the name of each record and choice. */
+function resultType(schema, use) {
+  const { $ref, anyOf, type, items } = schema;
+  if ($ref) {
+    const name = $ref.replace('#/$defs/', '');
+    use(name);
+    return name;
   }
-  return { choices, interfaces };
-}
-
-const words = (comment) =>
-  comment
-    .replace(/^\s*\*/gm, ' ')
-    .replace(/\s+/g, ' ')
-    .trim();
-
-/** A type of results in Python; `use` hears each name. */
-function resultType(type, use) {
-  const text = type.trim().replace(/^readonly /, '');
-  if (text.endsWith('[]')) return `list[${resultType(text.slice(0, -2), use)}]`;
-  if (text.startsWith('[') || /^\w+Array$/.test(text)) {
-    const nested = text.startsWith('[') && text.indexOf('[', 1) > 0;
-    return nested ? 'list[list[float]]' : 'list[float]';
-  }
-  if (text.startsWith('(') && text.endsWith(')')) return resultType(text.slice(1, -1), use);
-  if (text.includes(' | '))
-    return text
-      .split(' | ')
-      .map((one) => resultType(one, use))
-      .join(' | ');
-  const plain = { number: 'float', boolean: 'bool', string: 'str', null: 'None' }[text];
-  if (plain) return plain;
-  if (!/^\w+$/.test(text)) throw new Error(`no type of Python is known for ${type}`);
-  use(text);
-  return text;
+  if (anyOf) return anyOf.map((one) => resultType(one, use)).join(' | ');
+  if (type === 'array') return `list[${resultType(items, use)}]`;
+  const plain = { number: 'float', integer: 'float', boolean: 'bool', string: 'str', null: 'None' }[type];
+  if (!plain) throw new Error(`no type of Python is known for ${JSON.stringify(schema)}`);
+  return plain;
 }
 
 /** The module of results. */
-export function resultsModule(typescript) {
-  const { choices, interfaces } = declarations(typescript);
+export function resultsModule({ $defs }) {
   const done = new Set();
   const parts = [];
   const write = (name) => {
     if (done.has(name)) return;
     done.add(name);
-    if (choices[name]) {
-      parts.push(`${literal(`${name} = `, choices[name])}\n`);
+    const { description, oneOf, properties, required } = $defs[name] ?? {};
+    if (oneOf) {
+      parts.push(`${literal(`${name} = `, constants(oneOf))}\n`);
       return;
     }
-    const { words, fields } = interfaces[name] ?? {};
-    if (!fields) throw new Error(`TypeScript has no ${name}`);
-    const lines = fields.map(({ field, type, optional, words }) => {
-      const of = resultType(type, write);
-      return `    ${field}: ${optional ? `NotRequired[${of}]` : of}\n${docstring(words, 4)}`;
+    if (!properties) throw new Error(`the schema of results has no ${name}`);
+    const lines = Object.entries(properties).map(([field, schema]) => {
+      const of = resultType(schema, write);
+      const there = required.includes(field) ? of : `NotRequired[${of}]`;
+      return `    ${field}: ${there}\n${docstring(schema.description, 4)}`;
     });
-    parts.push(`class ${name}(TypedDict):\n${docstring(words, 4)}\n${lines.join('')}`);
+    parts.push(`class ${name}(TypedDict):\n${docstring(description, 4)}\n${lines.join('')}`);
   };
   RESULTS.forEach(write);
   const head = `"""Results of the command line.\n\n${HEAD}\n"""\n`;
@@ -129,24 +96,16 @@ const joined = (blocks) =>
     return `${text}${k === 0 ? '' : apart ? '\n\n' : '\n'}${block}`;
   }, '');
 
-/** The name of a choice by its values. */
-const named = (choices, values) => Object.keys(choices).find((name) => choices[name].join() === values.join());
-
 /** A type of options in Python. */
-function optionType(property, choices, use) {
-  const { type, oneOf, anyOf, enum: values, items } = property;
+function optionType(property, use) {
+  const { type, title, oneOf, anyOf, enum: values, items } = property;
   if (oneOf) {
-    const name = named(
-      choices,
-      oneOf.map((one) => one.const),
-    );
-    if (!name) throw new Error(`TypeScript has no choice of ${JSON.stringify(oneOf)}`);
-    use(name);
-    return name;
+    use(title, constants(oneOf));
+    return title;
   }
-  if (anyOf) return anyOf.map((one) => optionType(one, choices, use)).join(' | ');
+  if (anyOf) return anyOf.map((one) => optionType(one, use)).join(' | ');
   if (values) return literal('', values);
-  if (type === 'array') return `Sequence[${optionType(items, choices, use)}]`;
+  if (type === 'array') return `Sequence[${optionType(items, use)}]`;
   const plain = { number: 'float', integer: 'int', boolean: 'bool', string: 'str' }[type];
   if (!plain) throw new Error(`no type of Python is known for ${JSON.stringify(property)}`);
   return plain;
@@ -183,10 +142,18 @@ function optionFields(properties, without, path = '', flags = '') {
     });
 }
 
+/** Every choice of a schema by its name: of options, and of the records within them. */
+function choicesOf(schema, found = new Map()) {
+  if (typeof schema !== 'object' || schema === null) return found;
+  if (schema.oneOf && schema.title) found.set(schema.title, constants(schema.oneOf));
+  for (const inner of Object.values(schema)) choicesOf(inner, found);
+  return found;
+}
+
 /** The module of options, and the version that they are of. */
-export function optionsModule(schema, typescript, version) {
-  const { choices } = declarations(typescript);
-  const used = new Set(CHOICES);
+export function optionsModule(schema, version) {
+  const all = choicesOf(schema.$defs);
+  const used = new Map(CHOICES.map((name) => [name, all.get(name)]));
   const parts = [];
   for (const [name, { of, without }] of Object.entries(OPTIONS)) {
     const definitions = of.map((one) => schema.$defs[one]);
@@ -194,7 +161,7 @@ export function optionsModule(schema, typescript, version) {
     const lines = fields.map(({ name, property }) => {
       const more = told(property);
       const words = property.description.replace(/\.$/, '') + (more ? ` (${more})` : '');
-      return `    ${name}: ${optionType(property, choices, (choice) => used.add(choice))}\n${docstring(`${words}.`, 4)}`;
+      return `    ${name}: ${optionType(property, (choice, values) => used.set(choice, values))}\n${docstring(`${words}.`, 4)}`;
     });
     const table = fields.map(({ name, flag, how }) => `    "${name}": ("${flag}", "${how}"),\n`);
     parts.push(
@@ -202,9 +169,7 @@ export function optionsModule(schema, typescript, version) {
     );
     parts.push(`${snakeCase(name).slice(1).toUpperCase()}: dict[str, tuple[str, Kind]] = {\n${table.join('')}}\n`);
   }
-  const aliases = Object.keys(choices)
-    .filter((name) => used.has(name))
-    .map((name) => literal(`${name} = `, choices[name]));
+  const aliases = [...used].sort().map(([name, values]) => literal(`${name} = `, values));
   return joined([
     `"""Options by their names in Python, and their flags on the command line.\n\n${HEAD}\n"""\n`,
     'from collections.abc import Sequence\nfrom typing import Literal, TypedDict\n',
@@ -222,9 +187,8 @@ export function pythonFiles() {
   const generated = (name) => text(`web/lib/generated/${name}`);
   const version = /^\[workspace\.package\]\s+version = "([^"]+)"/m.exec(text('Cargo.toml'))?.[1];
   if (!version) throw new Error('Cargo.toml states no version of the workspace');
-  const typescript = generated('options.ts') + generated('results.ts');
   return [
-    [`${FOLDER}/options.py`, optionsModule(JSON.parse(generated('schema.json')), typescript, version)],
-    [`${FOLDER}/results.py`, resultsModule(typescript)],
+    [`${FOLDER}/options.py`, optionsModule(JSON.parse(generated('schema.json')), version)],
+    [`${FOLDER}/results.py`, resultsModule(JSON.parse(generated('results-schema.json')))],
   ];
 }
