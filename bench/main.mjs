@@ -1,5 +1,5 @@
 // `npm run bench`: times the built package, one thread, beside NumPy and fft.js on the same data. How right answers are
-// is not looked at here: that is `boresight evaluate`.
+// is not measured here: that is `npm run experiments`.
 //
 //   --only NAMES   rows whose name contains one of these, comma-separated
 //   --quick        fewer rounds: for a look, not for figures to keep
