@@ -16,7 +16,10 @@ pub struct Source {
     #[serde(rename = "power_db", serialize_with = "decibels::serialize")]
     pub power: f64,
     /// Its complex amplitude at the array's origin, where a single snapshot determines it.
-    #[option(typescript = "readonly [re: number, im: number]")]
+    #[option(
+        typescript = "readonly [re: number, im: number]",
+        schema = r#"{ "type": "array", "items": { "type": "number" } }"#
+    )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub amplitude: Option<Complex64>,
     /// How sure a network is of it, from 0 to 1; absent from other methods.

@@ -6,7 +6,7 @@ use crate::fit::{Fit, Fitted};
 use crate::options::CalibrationOptions;
 use crate::plane_wave::{Cosines, PlaneWaves};
 use crate::result::{CalibrationCheck, CheckFigures, CheckedCell};
-use crate::self_calibration::{calibrate, decibels};
+use crate::self_calibration::{calibrate, share_db};
 use boresight_core::{Array, ArrayCalibration, Complex64, Direction};
 use ndarray::Array2;
 
@@ -105,7 +105,7 @@ pub(crate) fn together<'a>(cells: impl Iterator<Item = &'a CheckFigures>) -> Che
     CheckFigures {
         residual_phase_rad: (sums.residual_phase_rad / count).sqrt(),
         residual_gain_db: (sums.residual_gain_db / count).sqrt(),
-        residual_db: decibels(sums.residual_db / count),
+        residual_db: share_db(sums.residual_db / count),
         sidelobe_db: sums.sidelobe_db.max(-300.0),
     }
 }
@@ -153,7 +153,7 @@ pub(crate) fn figures<'a>(
         let figures = CheckFigures {
             residual_phase_rad: square(&|z| z.arg()),
             residual_gain_db: square(&|z| 20.0 * z.norm().max(1e-5).log10() - mean_db),
-            residual_db: decibels(found.residuals[index]),
+            residual_db: share_db(found.residuals[index]),
             sidelobe_db: sidelobe_db(&fit.waves, &cell.signal, u),
         };
         (fit.waves.direction(u), figures)
@@ -197,5 +197,5 @@ fn sidelobe_db(waves: &PlaneWaves, signal: &[Complex64], peak: Cosines) -> f64 {
         let beyond = pattern[..down].iter().chain(&pattern[(up + 1).min(points)..]);
         highest = beyond.fold(highest, |high, &value| high.max(value));
     }
-    decibels(if top > 0.0 { highest / top } else { 0.0 })
+    share_db(if top > 0.0 { highest / top } else { 0.0 })
 }

@@ -13,7 +13,7 @@ use boresight_core::{
     Array, ArrayCalibration, CalibrationMethod, ChannelCalibration, Complex64, Direction,
     NotIdentifiable, Remark,
 };
-use boresight_math::decibels::db_to_power;
+use boresight_math::decibels::{db_to_power, power_to_db};
 use boresight_options::{Naming, check};
 use ndarray::Array2;
 
@@ -254,7 +254,7 @@ impl Calibrated {
             cells: used.len(),
             cells_left_out: left,
             frames: 0,
-            residual_db: Some(decibels(power)),
+            residual_db: Some(share_db(power)),
             residual_phase_rad: Some(phase),
             residual_gain_db: Some(gain),
         };
@@ -372,6 +372,6 @@ fn deviations(fit: &Fit, found: &Fitted) -> (f64, f64) {
 }
 
 /// Decibels of a share of power, no less than -300.
-pub(crate) fn decibels(share: f64) -> f64 {
-    10.0 * share.max(1e-30).log10()
+pub(crate) fn share_db(share: f64) -> f64 {
+    power_to_db(share).max(-300.0)
 }

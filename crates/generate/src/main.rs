@@ -66,7 +66,7 @@ fn root() -> PathBuf {
 }
 
 /// The files by their place in the checkout, and what they should hold.
-fn files() -> Result<[(&'static str, String); 5], GenerateError> {
+fn files() -> Result<[(&'static str, String); 6], GenerateError> {
     let entries = catalogue::entries()?;
     let results = catalogue::results();
     let [options, all_results] = typescript::modules(&entries, &results);
@@ -74,6 +74,7 @@ fn files() -> Result<[(&'static str, String); 5], GenerateError> {
         ("web/lib/generated/options.ts", options),
         ("web/lib/generated/results.ts", all_results),
         ("web/lib/generated/schema.json", schema::document(&entries)?),
+        ("web/lib/generated/results-schema.json", schema::results_document(&results)?),
         ("docs/options.md", docs::options(&entries)),
         ("docs/results.md", docs::results(&results)),
     ])

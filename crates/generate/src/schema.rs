@@ -2,7 +2,7 @@
 
 use crate::catalogue::{Entry, shown};
 use crate::values::{in_user_units, plain};
-use boresight_options::{Field, Kind, Record, naming};
+use boresight_options::{Field, Kind, Record, Special, naming};
 use serde_json::{Map, Value, json};
 
 /// One document that defines all options under `$defs`.
@@ -17,6 +17,100 @@ pub fn document(entries: &[Entry]) -> Result<String, serde_json::Error> {
         "$defs": definitions,
     });
     Ok(serde_json::to_string_pretty(&document)? + "\n")
+}
+
+/// One document that defines all results under `$defs`, with the records and choices that they hold.
+pub fn results_document(results: &[(&str, Vec<Kind>)]) -> Result<String, serde_json::Error> {
+    let mut definitions = Map::new();
+    for kind in results.iter().flat_map(|(_, kinds)| kinds) {
+        result(kind, &mut definitions)?;
+    }
+    let document = json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Results of Boresight",
+        "$defs": definitions,
+    });
+    Ok(serde_json::to_string_pretty(&document)? + "\n")
+}
+
+/// The schema of a value of a result; records and choices are added to the definitions.
+fn result(kind: &Kind, definitions: &mut Map<String, Value>) -> Result<Value, serde_json::Error> {
+    let of_number = |name: &str| json!({ "type": name });
+    Ok(match kind {
+        Kind::Number => of_number("number"),
+        Kind::Whole | Kind::Seed => of_number("integer"),
+        Kind::Truth => of_number("boolean"),
+        Kind::Text => of_number("string"),
+        Kind::Numbers(_) => json!({ "type": "array", "items": { "type": "number" } }),
+        Kind::Choice(choice) => {
+            let variants = choice.variants.iter();
+            let all: Vec<Value> =
+                variants.map(|(name, doc)| json!({ "const": name, "description": doc })).collect();
+            definitions
+                .insert(choice.name.into(), json!({ "description": choice.doc, "oneOf": all }));
+            reference(choice.name)
+        }
+        Kind::Record(record) => {
+            if !definitions.contains_key(record.name) {
+                // Before its fields, which may refer to it.
+                definitions.insert(record.name.into(), Value::Null);
+                let schema = result_record(record, definitions)?;
+                definitions.insert(record.name.into(), schema);
+            }
+            reference(record.name)
+        }
+        Kind::Optional(inner) => {
+            json!({ "anyOf": [result(inner, definitions)?, { "type": "null" }] })
+        }
+        Kind::List(inner) => json!({ "type": "array", "items": result(inner, definitions)? }),
+        Kind::Tuple(inner, length) => json!({
+            "type": "array",
+            "items": result(inner, definitions)?,
+            "minItems": length,
+            "maxItems": length,
+        }),
+        Kind::Special(Special { schema: "{}", typescript, .. }) => {
+            json!({ "x-typescript": typescript })
+        }
+        Kind::Special(special) => serde_json::from_str(special.schema)?,
+    })
+}
+
+fn result_record(
+    record: &'static Record,
+    definitions: &mut Map<String, Value>,
+) -> Result<Value, serde_json::Error> {
+    let (mut properties, mut required) = (Map::new(), vec![]);
+    for one in shown(record, None) {
+        let name = naming::javascript(one.field.name);
+        // A value that may be absent is not null.
+        let kind = match one.field.kind {
+            Kind::Optional(inner) if one.field.may_be_absent => *inner,
+            kind => kind,
+        };
+        let mut schema = result(&kind, definitions)?;
+        if let Value::Object(schema) = &mut schema {
+            schema.insert("description".into(), one.field.doc.into());
+            let unit = naming::unit(one.field.name);
+            if !unit.is_empty() {
+                schema.insert("x-unit".into(), unit.into());
+            }
+        }
+        if !one.field.may_be_absent {
+            required.push(Value::from(name.clone()));
+        }
+        properties.insert(name, schema);
+    }
+    Ok(json!({
+        "type": "object",
+        "description": record.doc,
+        "properties": properties,
+        "required": required,
+    }))
+}
+
+fn reference(name: &str) -> Value {
+    json!({ "$ref": format!("#/$defs/{name}") })
 }
 
 fn record(record: &'static Record, defaults: Option<&Value>) -> Result<Value, serde_json::Error> {
@@ -69,7 +163,7 @@ fn kind(
         Kind::Text => json!({ "type": "string" }),
         Kind::Choice(choice) => {
             let variants = choice.variants.iter();
-            json!({ "oneOf": variants
+            json!({ "title": choice.name, "oneOf": variants
                 .map(|(name, doc)| json!({ "const": name, "description": doc }))
                 .collect::<Vec<_>>() })
         }

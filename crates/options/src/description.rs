@@ -161,9 +161,9 @@ pub struct Special {
 }
 
 impl Special {
-    /// What only TypeScript has a name for.
+    /// What only TypeScript has a name for, with its JSON Schema.
     #[must_use]
-    pub const fn in_typescript(typescript: &'static str) -> Self {
-        Self { expected: typescript, typescript, schema: "{}", flag: "" }
+    pub const fn in_typescript(typescript: &'static str, schema: &'static str) -> Self {
+        Self { expected: typescript, typescript, schema, flag: "" }
     }
 }

@@ -11,6 +11,7 @@ use boresight_aoa::{
 };
 use boresight_core::correction::Correction;
 use boresight_core::{Array, Complex32, Complex64, Direction, Multiplexing, Remark, Waveform};
+use boresight_math::decibels::power_to_db;
 use boresight_math::order::sort_descending;
 use boresight_options::remark::Coded;
 use boresight_signal::peaks::{Peak, group_peaks, interpolate};
@@ -333,8 +334,8 @@ impl Chain {
             range_m: self.transform.range_m().to_vec(),
             rate_mps: self.transform.rate_mps().to_vec(),
             unambiguous_rate_mps: self.transform.waveform().max_rate_mps() * told as f64,
-            range_profile_db: profile.into_iter().map(decibels).collect(),
-            range_doppler_db: self.map.power.mapv(|p| decibels(f64::from(p)) as f32),
+            range_profile_db: profile.into_iter().map(floored_db).collect(),
+            range_doppler_db: self.map.power.mapv(|p| floored_db(f64::from(p)) as f32),
             detections,
             counts,
             warnings,
@@ -382,8 +383,9 @@ fn detection(cell: &Cell, direction: Direction, power: f64) -> Detection {
     }
 }
 
-fn decibels(power: f64) -> f64 {
-    (10.0 * power.log10()).max(FLOOR_DB)
+/// Decibels of a power, no less than [`FLOOR_DB`].
+fn floored_db(power: f64) -> f64 {
+    power_to_db(power).max(FLOOR_DB)
 }
 
 /// Guard and training cells for padded transforms, and what follows from windows and channels.

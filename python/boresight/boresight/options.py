@@ -12,8 +12,11 @@ VERSION = "0.1.0"
 Kind = Literal["truth", "no", "list", "value"]
 """How a flag is given: where its option is true, where it is false, with a list, with a value."""
 
+AzimuthSign = Literal["left", "right", "auto"]
+CalibrationMethod = Literal["weighted-mean", "kabsch", "least-squares", "orthogonal-distance", "recursive"]
+DriveFormat = Literal["radarscenes", "delphi", "csv", "pcd", "view-of-delft", "mcap"]
 EspritForm = Literal["least-squares", "total-least-squares"]
-Thresholding = Literal["none", "hard", "soft"]
+FrameWeights = Literal["direction", "motion", "equal"]
 IaaForm = Literal["auto", "fast", "dense"]
 IaaPrecision = Literal["auto", "double"]
 Method = Literal[
@@ -38,13 +41,10 @@ Method = Literal[
     "covariance-cnn",
     "deep-music",
 ]
-CalibrationMethod = Literal["weighted-mean", "kabsch", "least-squares", "orthogonal-distance", "recursive"]
 MotionMethod = Literal["ransac", "weighted-least-squares", "orthogonal-distance", "tracked", "deepego", "deepego-plus"]
-FrameWeights = Literal["direction", "motion", "equal"]
-Sharing = Literal["shared", "drive"]
-DriveFormat = Literal["radarscenes", "delphi", "csv", "pcd", "view-of-delft", "mcap"]
-AzimuthSign = Literal["left", "right", "auto"]
 RangeRateSign = Literal["receding", "approaching", "auto"]
+Sharing = Literal["shared", "drive"]
+Thresholding = Literal["none", "hard", "soft"]
 
 
 class CalibrateOptions(TypedDict, total=False):

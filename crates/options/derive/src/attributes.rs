@@ -23,6 +23,8 @@ pub struct FieldOptions {
     pub range: Option<Range>,
     pub described_as: Option<Type>,
     pub typescript: Option<String>,
+    /// The JSON Schema of a field with a type in TypeScript.
+    pub schema: Option<String>,
     pub required: bool,
 }
 
@@ -47,11 +49,13 @@ impl FieldOptions {
                     options.described_as = Some(meta.value()?.parse()?);
                 } else if meta.path.is_ident("typescript") {
                     options.typescript = Some(meta.value()?.parse::<LitStr>()?.value());
+                } else if meta.path.is_ident("schema") {
+                    options.schema = Some(meta.value()?.parse::<LitStr>()?.value());
                 } else if meta.path.is_ident("required") {
                     options.required = true;
                 } else {
                     return Err(meta.error(
-                        "expected default, range, positive, required, described_as or typescript",
+                        "expected default, range, positive, required, described_as, typescript or schema",
                     ));
                 }
                 Ok(())

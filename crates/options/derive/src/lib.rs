@@ -20,6 +20,7 @@ use syn::{Data, DeriveInput, parse_macro_input};
 ///   own; such a field's check is written by hand.
 /// - `#[option(typescript = "...")]`: the field's type in TypeScript, of a result that has it more
 ///   exactly than its type in Rust.
+/// - `#[option(schema = "...")]`: the JSON Schema of a field with a type in TypeScript.
 /// - `#[option(required)]`: the field has to be given though it has a default in Rust. So has a field
 ///   of a struct without `#[serde(default)]`, unless it is an `Option`.
 /// - `#[serde(skip)]`: the field is not described.

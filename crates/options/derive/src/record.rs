@@ -43,10 +43,11 @@ pub fn expand(input: &DeriveInput, fields: &Fields) -> Result<TokenStream> {
         let (doc, may_be_absent) = (doc(&field.attrs), serde.may_be_absent);
         let range = range_tokens(options.range.as_ref());
         let described_as = as_static(options.described_as.as_ref().unwrap_or(ty).to_token_stream());
+        let schema = options.schema.as_deref().unwrap_or("{}");
         let kind = match &options.typescript {
             Some(text) => quote! {
                 ::boresight_options::Kind::Special(
-                    &::boresight_options::Special::in_typescript(#text),
+                    &::boresight_options::Special::in_typescript(#text, #schema),
                 )
             },
             None => quote!(<#described_as as ::boresight_options::Described>::KIND),

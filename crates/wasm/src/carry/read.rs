@@ -161,7 +161,7 @@ impl<'a> Reader<'a> {
     fn whole<'de, V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         let is_number = self.value.as_f64();
         // Only what Rust keeps in 64 bits, as seeds, may need more than a number holds.
-        let is_seed = is_number.is_none() && Expected(&visitor).to_string() == "u64";
+        let is_seed = is_number.is_none() && std::any::type_name::<V::Value>() == "u64";
         if is_number.is_none() && !(is_seed && self.value.is_bigint()) {
             let or = if is_seed { " or a bigint" } else { "" };
             return Err(self.wrong_type(&format!("a whole number{or}")));
