@@ -1,6 +1,6 @@
 //! The command line: angles from radar captures and snapshots, mounting angles, and simulation.
 //!
-//! Angles are in degrees here and in radians behind it. The program is [`run`]; the modules that are public are what
+//! Angles are in degrees here and in radians behind it. The program is [`run()`]; the modules that are public are what
 //! another program with the same rules for files, flags and errors needs.
 //!
 //! # Example

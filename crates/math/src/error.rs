@@ -75,7 +75,7 @@ pub enum InputError {
         /// The number given.
         given: f64,
     },
-    /// More than one call may take ([`crate::limits`]).
+    /// More than one call may take (`boresight_core::limits`).
     #[error("{what} would take {given:.3e} {measure}; expected {}", at_most(measure, *most))]
     TooLarge {
         /// What would be done or allocated.

@@ -125,7 +125,7 @@ impl Condition {
         (!rows.is_empty()).then(|| Table::new(title, Best::None, "method", heads, rows))
     }
 
-    /// Lines of comma-separated values after [`CSV_HEADS`].
+    /// Lines of comma-separated values after [`csv_heads`].
     pub fn csv(&self) -> String {
         let mut text = String::new();
         for method in &self.methods {

@@ -19,8 +19,8 @@ Task = tuple[list[str], int, int]
 class Validation:
     """`boresight validate` on a folder of drives, to run in parts by `boresight.fleet.dask` or `boresight.fleet.ray`.
 
-    Options are its flags, with underscores for dashes: `Validation("drives", parts=8, pieces=[25, 60])`. The workers read
-    the drives, by the same path.
+    Options are its flags, with underscores for dashes: `Validation("drives", parts=8, pieces=[25, 60])`. The workers
+    read the drives, by the same path.
     """
 
     def __init__(self, drives: Place, *, parts: int, **options: object) -> None:
@@ -99,7 +99,8 @@ class ValidationWork:
 
     def _hold(self) -> None:
         """Sees that the folder is of this validation: parts of another would be taken for its own."""
-        wanted = json.dumps({"version": VERSION, "arguments": self.validation.arguments, "parts": self.validation.parts})
+        of = self.validation
+        wanted = json.dumps({"version": VERSION, "arguments": of.arguments, "parts": of.parts})
         file = self.parts / "validation.json"
         if file.exists():
             given = file.read_text(encoding="utf-8").strip()

@@ -71,8 +71,8 @@ def dask(
         retry: Run logs again that failed.
         settings: Of `plan`: vehicle, sensor, joint, format and options.
 
-    What the fleet comes to, as `merge` tells it, or the validation. A log that cannot be calibrated is a record that says
-    so. An exception is what stops the run: `BoresightError`, or one of Dask. Records that came before are kept.
+    What the fleet comes to, as `merge` tells it, or the validation. A log that cannot be calibrated is a record that
+    says so. An exception is what stops the run: `BoresightError`, or one of Dask. Records that came before are kept.
     """
     from distributed import as_completed
 
