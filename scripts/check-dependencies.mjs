@@ -3,7 +3,7 @@
 import { existsSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { problems, workspaceGraph } from './lib/checks/dependency-rules.mjs';
-import { moduleProblems, sourcesOf } from './lib/checks/module-imports.mjs';
+import { cycles, importsOf, moduleProblems, sourcesOf } from './lib/checks/module-imports.mjs';
 import { root } from './lib/paths.mjs';
 import { main, output } from './lib/run.mjs';
 
@@ -14,7 +14,12 @@ await main(async () => {
   const folders = readdirSync(join(root, 'crates'));
   const sources = folders.map((crate) => [crate, join(root, 'crates', crate, 'src')]);
   const modules = sources.filter(([, folder]) => existsSync(folder));
-  const found = [...problems(graph), ...modules.flatMap(([crate, folder]) => moduleProblems(crate, sourcesOf(folder)))];
-  console.log(`${graph.size} crates, ${found.length} forbidden dependencies and imports`);
+  const read = modules.map(([crate, folder]) => [crate, sourcesOf(folder)]);
+  const found = [...problems(graph), ...read.flatMap(([crate, files]) => moduleProblems(crate, files))];
+  const longest = Math.max(...read.flatMap(([, files]) => cycles(importsOf(files)).map(({ length }) => length)), 0);
+  const files = output('git', ['ls-files', '--', '.', ':!research'])?.trim().split('\n').length;
+  console.log(
+    `${graph.size - 1} product crates, ${files} tracked product files, longest import cycle ${longest} files, ${found.length} forbidden dependencies and imports`,
+  );
   if (found.length > 0) throw new Error(found.join('\n'));
 });
