@@ -95,7 +95,7 @@ export function jointCalibration(
  * await Promise.all([init(), initDrives()]);
  * const drive = simulateDrive({ scenario: 'city', durationS: 60, seed: 1 });
  * const html = calibrationReport(drive, {}, { sensors: [1, 2, 3, 4] });
- * console.log(html.slice(0, 15)); // → <!doctype html>
+ * console.log(html.slice(0, 15)); // → <!DOCTYPE html>
  * ```
  */
 export function calibrationReport(
