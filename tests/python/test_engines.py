@@ -15,7 +15,7 @@ from boresight.binary import binary
 #: The command line, but where a file `kill` or `fail` lies beside it: the one who takes it away kills the worker that
 #: called it, or ends with an error. Only the commands that workers run do so.
 WRAPPER = """#!/bin/sh
-case "$*" in "fleet run - "*|"evaluate "*" --part "*)
+case "$*" in "fleet run - "*|"validate "*" --part "*)
   mv "{folder}/kill" "{folder}/killed" 2>/dev/null && {{ kill -9 $PPID; exit 1; }}
   [ -e "{folder}/fail" ] && {{ echo "error: no memory" >&2; exit 3; }}
 esac
@@ -151,7 +151,7 @@ def test_what_stops_a_run_leaves_whole_records(engine, wishes, records_of_one_pr
 
 
 @pytest.fixture(scope="module")
-def drives(tmp_path_factory):
+def folder_of_drives(tmp_path_factory):
     folder = tmp_path_factory.mktemp("drives")
     for seed in range(4):
         place = folder / f"drive-{seed}"
@@ -160,14 +160,16 @@ def drives(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def validation_of_one_process(drives, tmp_path_factory):
+def validation_of_one_process(folder_of_drives, tmp_path_factory):
     folder = tmp_path_factory.mktemp("validation")
-    command("validate", drives, "--pieces", "4,8", "--threads", "1", "--out", folder)
+    command("validate", folder_of_drives, "--pieces", "4,8", "--threads", "1", "--out", folder)
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
-def test_a_validation_in_parts_is_that_of_one_process(engine, wishes, drives, validation_of_one_process, tmp_path):
-    validation = boresight.Validation(drives, parts=4, pieces=PIECES)
+def test_a_validation_in_parts_is_that_of_one_process(
+    engine, wishes, folder_of_drives, validation_of_one_process, tmp_path
+):
+    validation = boresight.Validation(folder_of_drives, parts=4, pieces=PIECES)
     (wishes / "kill").touch()
     told = Told()
     found = engine(validation, out=tmp_path, progress=told)
@@ -182,7 +184,7 @@ def test_a_validation_in_parts_is_that_of_one_process(engine, wishes, drives, va
     told = Told()
     assert engine(validation, out=tmp_path, progress=told) == found and told.calls == [(3, 4), (4, 4)]
     with pytest.raises(boresight.BoresightError) as caught:
-        engine(boresight.Validation(drives, parts=4, pieces=[5]), out=tmp_path)
+        engine(boresight.Validation(folder_of_drives, parts=4, pieces=[5]), out=tmp_path)
     assert caught.value.code == "other-run"
 
 
