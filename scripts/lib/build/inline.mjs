@@ -2,7 +2,6 @@
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { dist, root } from '../paths.mjs';
-import { gzip } from './compressed.mjs';
 
 const sources = join(root, 'web', 'inline');
 const folder = join(dist, 'inline');
@@ -52,6 +51,8 @@ async function bundled(entry, { format, archive = '', name = 'inline', footer = 
 
 /** Parts as a module that holds them: each by gzip, which every browser and runtime opens, in base64. */
 async function packedOf(parts) {
+  // Needs installed packages, which a build script of a fresh clone has not yet.
+  const { gzip } = await import('./compressed.mjs');
   const packed = Object.entries(parts).map(async ([name, bytes]) => [name, (await gzip(bytes)).toString('base64')]);
   return `export const parts = ${JSON.stringify(Object.fromEntries(await Promise.all(packed)))};\n`;
 }
