@@ -16,7 +16,10 @@ from boresight_training.tasks import task
 
 ROOT = Path(__file__).parents[3]
 MODELS = sorted([*(ROOT / "models").glob("*.onnx"), *(ROOT / "research" / "models").glob("*.onnx")])
-GOLDEN = ROOT / "tests" / "golden" / "networks"
+GOLDEN = {
+    ROOT / "models": ROOT / "tests" / "golden" / "networks",
+    ROOT / "research" / "models": ROOT / "research" / "models" / "golden",
+}
 
 
 def card_of(path):
@@ -69,7 +72,7 @@ def test_a_golden_batch_is_what_card_and_file_say(path):
     card = card_of(path)
 
     def read(ports):
-        values = {port["name"]: np.load(GOLDEN / path.stem / f"{port['name']}.npy") for port in ports}
+        values = {port["name"]: np.load(GOLDEN[path.parent] / path.stem / f"{port['name']}.npy") for port in ports}
         for port in ports:
             given = values[port["name"]]
             assert given.dtype == np.float32
@@ -79,7 +82,7 @@ def test_a_golden_batch_is_what_card_and_file_say(path):
         return values
 
     inputs, outputs = read(card["inputs"]), read(card["outputs"])
-    assert len(list((GOLDEN / path.stem).iterdir())) == len(inputs) + len(outputs)
+    assert len(list((GOLDEN[path.parent] / path.stem).iterdir())) == len(inputs) + len(outputs)
     answers = session_of(path).run(list(outputs), inputs)
     for given, expected in zip(answers, outputs.values(), strict=True):
         assert np.abs(given - expected).max() < 1e-4
