@@ -1,5 +1,5 @@
 // Runs the tests of all crates of the product: what Cargo makes of them, as many programs at a time as there are cores, since many end with
-// one long test, and then the examples of the documentation.
+// one long test, and then the examples of the documentation. Arguments choose other packages: `-p boresight-experiments`.
 import { availableParallelism } from 'node:os';
 import { delimiter, dirname, relative } from 'node:path';
 import { environment, root } from './lib/paths.mjs';
@@ -8,9 +8,11 @@ import { main, output, run, runKeeping } from './lib/run.mjs';
 /** Where tests of macros, which are part of the compiler, look for its libraries. */
 const libraryPath = { win32: 'PATH', darwin: 'DYLD_FALLBACK_LIBRARY_PATH' }[process.platform] ?? 'LD_LIBRARY_PATH';
 
+const packages = process.argv.slice(2);
+
 /** Test programs: path, folder of their package, and what to call them. */
 async function programs() {
-  const build = ['test', '--no-run', '--quiet', '--message-format=json-render-diagnostics'];
+  const build = ['test', ...packages, '--no-run', '--quiet', '--message-format=json-render-diagnostics'];
   const { ok, text } = await runKeeping('cargo', build, { stdio: ['ignore', 'pipe', 'inherit'] });
   if (!ok) throw new Error('the tests do not compile');
   return text
@@ -41,7 +43,7 @@ await main(async () => {
     }
   };
   await Promise.all(Array.from({ length: availableParallelism() }, worker));
-  const examples = run('cargo', ['test', '--doc', '--no-fail-fast', '--quiet']);
+  const examples = run('cargo', ['test', ...packages, '--doc', '--no-fail-fast', '--quiet']);
   await examples.catch(() => failed.push('examples of the documentation'));
   if (failed.length > 0) throw new Error(`failed: ${failed.join(', ')}`);
 });
