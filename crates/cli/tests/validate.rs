@@ -49,6 +49,12 @@ fn drives_from_files_are_cut_into_pieces_and_taken_up_again() {
     assert_eq!(stdout(&["validate", "--merge", parts, "--out", whole]), first);
     let own = boresight(&["validate", "--merge", whole, "--out", whole, "--force"]);
     assert!(String::from_utf8(own.stderr).unwrap().contains("own-input"));
+    // Records of another experiment are refused by its name.
+    let other = folder.join("other.jsonl");
+    std::fs::write(&other, "{\"experiment\":\"aoa\",\"options\":{}}\n").unwrap();
+    let refused = boresight(&["validate", "--merge", other.to_str().unwrap(), "--out", whole]);
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert!(said.contains("other-run") && said.contains("aoa"), "{said}");
     // A folder without drives says what is wrong with which.
     let empty = folder.join("empty");
     std::fs::create_dir_all(empty.join("nothing")).unwrap();

@@ -59,10 +59,63 @@ impl Parts {
     /// Puts the records together as those of one run, those of several legs in the same scenes side by side.
     ///
     /// # Errors
-    /// [`ValidateError::OtherRun`] where setups differ, or are not what this version would run;
+    /// [`ValidateError::OtherRun`] for records of another experiment, and where setups differ or are not what this version would run;
     /// [`ValidateError::Incomplete`] where scenes are missing.
     pub fn put_together<E: Experiment>(self) -> Result<Merged, E::Error> {
-        merge_as::<E>(self.gathered, self.sources)
+        if self.experiment() != E::NAME {
+            let (given, expected) = (self.experiment().into(), E::NAME.into());
+            return Err(
+                ValidateError::OtherRun { path: self.first().into(), expected, given }.into()
+            );
+        }
+        let Self { gathered, sources } = self;
+        let mut found = vec![];
+        for Gathered { setup: head, first, .. } in &gathered {
+            let malformed = |error| ValidateError::Record { path: first.clone(), line: 1, error };
+            let options = E::deserialize(&head["options"]).map_err(malformed)?;
+            let expected = setup(&options, &options.plan()?);
+            if *head != expected {
+                return Err(other_run(first, &expected, head).into());
+            }
+            found.push(options);
+            if E::whole(&found).is_none() {
+                return Err(other_run(first, &gathered[0].setup, head).into());
+            }
+        }
+        let Some(options) = E::whole(&found) else { return Err(nothing().into()) };
+        let scenes = 0..options.scenes();
+        // In the order of a run that was never split.
+        let (mut typed, mut records): (Vec<Records<E>>, _) = (vec![], vec![]);
+        let mut gathered: Vec<_> = found.into_iter().zip(gathered).collect();
+        for leg in options.legs() {
+            let Some(at) = gathered.iter().position(|(options, _)| *options == leg) else {
+                continue;
+            };
+            let of_all = gathered.swap_remove(at).1.records;
+            let missing = scenes.clone().filter(|scene| !of_all.contains_key(scene));
+            if let Some(first) = missing.clone().next() {
+                let missing = missing.count();
+                return Err(ValidateError::Incomplete { missing, first, total: scenes.end }.into());
+            }
+            let mut of_leg = Records::<E>::new();
+            for (scene, (record, path)) in of_all {
+                if scenes.contains(&scene) {
+                    let malformed = |error| ValidateError::Scene { path, scene, error };
+                    of_leg.insert(scene, serde_json::from_value(record).map_err(malformed)?);
+                }
+            }
+            let setup = setup(&leg, &leg.plan()?);
+            let name = file_name(&leg, Part::WHOLE);
+            let text = sweep::text(Path::new(&name), &setup, &of_leg)?;
+            records.push((name, text));
+            typed.push(of_leg);
+        }
+        let plan = options.plan()?;
+        Ok(Merged {
+            outcome: outcome(&options, &plan, side_by_side::<E>(typed))?,
+            records,
+            sources,
+        })
     }
 }
 
@@ -136,51 +189,4 @@ fn files(sources: &[PathBuf]) -> Result<Vec<PathBuf>, ValidateError> {
         files.append(&mut within);
     }
     Ok(files)
-}
-
-fn merge_as<E: Experiment>(
-    gathered: Vec<Gathered>,
-    sources: Vec<PathBuf>,
-) -> Result<Merged, E::Error> {
-    let mut found = vec![];
-    for Gathered { setup: head, first, .. } in &gathered {
-        let malformed = |error| ValidateError::Record { path: first.clone(), line: 1, error };
-        let options = E::deserialize(&head["options"]).map_err(malformed)?;
-        let expected = setup(&options, &options.plan()?);
-        if *head != expected {
-            return Err(other_run(first, &expected, head).into());
-        }
-        found.push(options);
-        if E::whole(&found).is_none() {
-            return Err(other_run(first, &gathered[0].setup, head).into());
-        }
-    }
-    let Some(options) = E::whole(&found) else { return Err(nothing().into()) };
-    let scenes = 0..options.scenes();
-    // In the order of a run that was never split.
-    let (mut typed, mut records): (Vec<Records<E>>, _) = (vec![], vec![]);
-    let mut gathered: Vec<_> = found.into_iter().zip(gathered).collect();
-    for leg in options.legs() {
-        let Some(at) = gathered.iter().position(|(options, _)| *options == leg) else { continue };
-        let of_all = gathered.swap_remove(at).1.records;
-        let missing = scenes.clone().filter(|scene| !of_all.contains_key(scene));
-        if let Some(first) = missing.clone().next() {
-            let missing = missing.count();
-            return Err(ValidateError::Incomplete { missing, first, total: scenes.end }.into());
-        }
-        let mut of_leg = Records::<E>::new();
-        for (scene, (record, path)) in of_all {
-            if scenes.contains(&scene) {
-                let malformed = |error| ValidateError::Scene { path, scene, error };
-                of_leg.insert(scene, serde_json::from_value(record).map_err(malformed)?);
-            }
-        }
-        let setup = setup(&leg, &leg.plan()?);
-        let name = file_name(&leg, Part::WHOLE);
-        let text = sweep::text(Path::new(&name), &setup, &of_leg)?;
-        records.push((name, text));
-        typed.push(of_leg);
-    }
-    let plan = options.plan()?;
-    Ok(Merged { outcome: outcome(&options, &plan, side_by_side::<E>(typed))?, records, sources })
 }

@@ -6,8 +6,8 @@ use crate::{
     straddling,
 };
 use boresight_core::InputError;
+use boresight_validate::Experiment as _;
 use boresight_validate::merge::{Merged, Parts};
-use boresight_validate::{DrivesExperiment, Experiment as _};
 use std::path::PathBuf;
 
 /// Puts together the records in `sources`, files of records or folders of them, of whichever experiment.
@@ -19,9 +19,6 @@ pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
     match parts.experiment() {
         aoa::AoaExperiment::NAME => parts.put_together::<aoa::AoaExperiment>(),
         arrays::ArraysExperiment::NAME => parts.put_together::<arrays::ArraysExperiment>(),
-        DrivesExperiment::NAME => {
-            Ok(parts.put_together::<DrivesExperiment>()?)
-        }
         calibration::CalibrationExperiment::NAME => {
             parts.put_together::<calibration::CalibrationExperiment>()
         }
@@ -43,7 +40,7 @@ pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
         name => Err(InputError::Unknown {
             what: format!("experiment of {}", parts.first().display()),
             expected:
-                "aoa, arrays, calibration, calibration-drives, doa, images, imperfections, low-snr, near-field, resolution, straddling"
+                "aoa, arrays, calibration, doa, images, imperfections, low-snr, near-field, resolution, straddling"
                     .into(),
             given: name.into(),
         }

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod common;
 mod support;
 
 use boresight_core::imperfections::ImperfectionSpread;
@@ -17,11 +18,8 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 fn network(name: &str) -> Network {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let folders = ["models", "research/models"].map(|folder| root.join(folder));
-    let has = |folder: &&PathBuf| folder.join(format!("{name}.onnx")).is_file();
-    let models = folders.iter().find(has).unwrap();
-    let read = |ending: &str| std::fs::read(models.join(format!("{name}.{ending}"))).unwrap();
+    let path = PathBuf::from(common::model(name));
+    let read = |ending: &str| std::fs::read(path.with_extension(ending)).unwrap();
     let card = Card::from_json(&read("json")).unwrap();
     let network = Network::new(Model::load(&read("onnx"), Some(&card)).unwrap(), "unnamed");
     assert_eq!((network.name.as_str(), Some(&network.sha256)), (name, card.sha256.as_ref()));

@@ -4,17 +4,11 @@
 
 mod common;
 
-use common::{experiments, folder, stdout};
+use common::{experiments, folder, model, stdout};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 const MINE: &[u8] = b"not an experiment's";
-
-fn model(name: &str) -> String {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let found = ["models", "research/models"].map(|at| root.join(at).join(format!("{name}.onnx")));
-    found.iter().find(|path| path.is_file()).unwrap().to_str().unwrap().to_owned()
-}
 
 fn text(path: &Path) -> &str {
     path.to_str().unwrap()

@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{folder, stdout};
+use common::{folder, model, stdout};
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -21,12 +21,6 @@ fn scores_counted_again_are_those_reported() {
         return;
     }
     let folder = folder("recount");
-    let model = |name: &str| {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        let paths = ["models", "research/models"]
-            .map(|folder| root.join(folder).join(format!("{name}.onnx")));
-        paths.iter().find(|path| path.is_file()).unwrap().to_str().unwrap().to_owned()
-    };
     let (of_snapshots, of_regions) = (model("learned-pursuit"), model("cnn3d-2"));
     let aoa =
         ["--validation", "2", "--methods", "iaa,iaa+hard,nomp+refined", "--model", &of_snapshots];

@@ -1,4 +1,6 @@
-//! Running the binary.
+//! Running the binary, and its networks.
+
+#![allow(dead_code)]
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -22,4 +24,11 @@ pub fn stdout(arguments: &[&str]) -> String {
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{arguments:?}: {errors}");
     String::from_utf8(output.stdout).unwrap()
+}
+
+/// The path of a network, of the product or of the comparisons.
+pub fn model(name: &str) -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let paths = ["models", "research/models"].map(|at| root.join(at).join(format!("{name}.onnx")));
+    paths.iter().find(|path| path.is_file()).unwrap().to_str().unwrap().to_owned()
 }
