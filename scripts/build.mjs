@@ -1,7 +1,7 @@
 // The package: crates/wasm, crates/wasm-neural -> dist/wasm, web/lib and web/worker -> dist, all in single files ->
 // dist/inline, and with the elements in one module -> python/boresight-widget, in one script -> dist/foxglove. The demo:
 // web/app/dist.
-import { existsSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { foxeName, makeFoxglove } from './lib/build/foxglove.mjs';
 import { makeInline } from './lib/build/inline.mjs';
@@ -29,39 +29,29 @@ const wasmFeatures = [
   'sign-ext',
 ].map((name) => `--enable-${name}`);
 
-// The second round, knowing which values can flow where, takes another 0.5 % off with Brotli.
-const wasmPasses = ['-Os', '--gufa', '-Os'];
+// The second round uses which values can flow where and reduces the Brotli size by 0.5 %; the order by name puts similar
+// functions next to each other: another 0.7 %.
+const wasmPasses = ['-Os', '--gufa', '-Os', '--reorder-functions-by-name'];
 
-/** Crates that a module of them only depends on: their changes do not touch the others. */
-const crates = (...names) => names.map((name) => `crates/${name}`);
-const shared = crates(
-  'aoa',
-  'array-calibration',
-  'calibrate',
-  'core',
-  'derive',
-  'formats',
-  'image',
-  'pipeline',
-  'signal',
-  'simulate',
-  'wasm',
-);
+/** Folders of crates and of all crates of the workspace that they depend on, without optional ones. */
+function withDependencies(...crates) {
+  const found = new Set(crates);
+  for (const crate of found) {
+    const [dependencies] = readFileSync(join(root, 'crates', crate, 'Cargo.toml'), 'utf8').split('[dev-dependencies]');
+    for (const [, name] of dependencies.matchAll(/^boresight-([\w-]+)\.workspace/gm))
+      if (existsSync(join(root, 'crates', name))) found.add(name);
+  }
+  return [...found].map((name) => `crates/${name}`);
+}
 
-export const core = { name: 'boresight', crate: 'wasm', feature: 'core', profile: 'dist', wasmOpt: true, made: shared };
-export const drives = {
-  ...core,
-  name: 'boresight_drives',
-  feature: 'drives',
-  made: [...shared, ...crates('report')],
-};
+export const core = { name: 'boresight', crate: 'wasm', feature: 'core', profile: 'dist', wasmOpt: true };
+export const drives = { ...core, name: 'boresight_drives', feature: 'drives', optional: ['report'] };
 /** Of networks. wasm-opt would take minutes. */
 export const neural = {
   name: 'boresight_neural',
   crate: 'wasm-neural',
   profile: 'neural',
   wasmOpt: false,
-  made: [...shared, ...crates('neural', 'wasm-neural')],
 };
 
 /** The modules: name in dist/wasm, crate, feature, how it is built, the crates it is made of. */
@@ -89,7 +79,13 @@ export const cargoArguments = (module) => [
 const form = ({ profile, wasmOpt }) => `${profile}${wasmOpt ? ', wasm-opt' : ''}`;
 const outputs = ({ name }) => ['.js', '.d.ts', '_bg.wasm'].map((end) => `dist/wasm/${name}${end}`);
 const stamp = (module, ...better) => ({
-  inputs: ['Cargo.toml', 'Cargo.lock', '.cargo/config.toml', ...module.made, 'scripts/build.mjs'],
+  inputs: [
+    'Cargo.toml',
+    'Cargo.lock',
+    '.cargo/config.toml',
+    ...withDependencies(module.crate, ...(module.optional ?? [])),
+    'scripts/build.mjs',
+  ],
   extra: [form(module)],
   better: better.map((one) => [form(one)]),
   outputs: outputs(module),

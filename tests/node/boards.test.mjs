@@ -59,11 +59,11 @@ describe('simulated bytes', () => {
     assert.deepEqual((await pool.joinCascade(files, text)).bytes, bytes);
     pool.terminate();
 
-    throwsTyped(() => joinCascade(files.slice(1), text), 'cascade-files', 'the cascade');
-    throwsTyped(() => joinCascade([], text), 'cascade-files', 'files of the cascade');
-    throwsTyped(() => joinCascade(files, cfg), 'cascade-files', 'the configuration');
+    throwsTyped(() => joinCascade(files.slice(1), text), 'recording-parts', 'the cascade');
+    throwsTyped(() => joinCascade([], text), 'recording-parts', 'files of the cascade');
+    throwsTyped(() => joinCascade(files, cfg), 'recording-parts', 'the configuration');
     const short = [{ ...files[0], bytes: files[0].bytes.subarray(2) }, ...files.slice(1)];
-    throwsTyped(() => joinCascade(short, text), 'cascade-files', "bytes of the chips' files");
+    throwsTyped(() => joinCascade(short, text), 'recording-parts', "bytes of the chips' files");
     const cut = [...files, { ...indices[0], bytes: indices[0].bytes.subarray(0, 100) }];
     throwsTyped(
       () => joinCascade(cut, text),

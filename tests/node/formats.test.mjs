@@ -4,11 +4,14 @@ import { before, describe, test } from 'node:test';
 import {
   BoardLogStream,
   init,
+  initDrives,
   parseBoardLog,
   parseConfig,
   readDetectionsCsv,
   readNpy,
   readSnapshotsCsv,
+  recordingParts,
+  studioConfig,
   subFrameConfig,
   waveformSummary,
   writeDetectionsCsv,
@@ -21,7 +24,7 @@ const recording = (name) => readFileSync(new URL(`../../recordings/awr1642/${nam
 const cfg = recording('profile.cfg');
 const dat = recording('xwr16xx_crw_demo_visualizer_2018_1015v2.dat');
 
-before(() => init());
+before(() => Promise.all([init(), initDrives()]));
 
 describe('configurations', () => {
   test('give waveform, channels and derived numbers', () => {
@@ -56,6 +59,29 @@ describe('configurations', () => {
     assert.equal(second.frameBytes, first.frameBytes);
     throwsTyped(() => subFrameConfig(advanced, 2), 'out-of-range', 'sub-frame');
     throwsTyped(() => subFrameConfig(advanced, 0.5), 'out-of-range', 'subFrame');
+  });
+
+  test('of mmWave Studio say the same as the .cfg of the same settings', () => {
+    const golden = (kind) => readFileSync(new URL(`../golden/mmwave-studio/awr1642.${kind}.json`, import.meta.url));
+    const text = studioConfig(golden('mmwave'), golden('setup'));
+    const wanted = { ...parseConfig(cfg), platform: 'awr1642', sdkVersion: null };
+    assert.deepEqual(parseConfig(text), wanted);
+    // Without the setup, the board is unknown.
+    const unnamed = { ...wanted, platform: null, array: null };
+    assert.deepEqual(parseConfig(studioConfig(golden('mmwave'))), unnamed);
+    throwsTyped(() => parseConfig(golden('mmwave')), 'config-value', 'the text');
+    throwsTyped(() => studioConfig('{}'), 'config-value', 'mmWaveDevices');
+    throwsTyped(() => studioConfig(golden('mmwave'), null), 'wrong-type', 'setup');
+    throwsTyped(() => studioConfig('no JSON'), 'malformed-json', '.mmwave.json');
+  });
+
+  test('files of a recording are put in order by their names', () => {
+    assert.deepEqual(recordingParts(['raw_3.bin', 'raw_0.bin']), {
+      order: [1, 0],
+      cascade: false,
+      missing: ['raw_1.bin to raw_2.bin'],
+    });
+    throwsTyped(() => recordingParts(['left_0.bin', 'right_1.bin']), 'recording-parts', 'files of the recording');
   });
 
   test('that cannot be say where', () => {

@@ -7,7 +7,7 @@ export {
   configuredCalibration,
   tiCompensation,
 } from './array-calibration/array-calibration.js';
-export { Capture, frameCells, joinCascade, processCube } from './capture/capture.js';
+export { Capture, frameCells, joinCascade, processCube, recordingParts } from './capture/capture.js';
 export { strongestRegion } from './capture/region.js';
 export { calibrateDrive, calibrationReport, frameVerdicts, jointCalibration } from './drive/calibration.js';
 export { driveScenarios, initDrivesSync, readDrive, simulateDrive } from './drive/drive.js';
@@ -21,6 +21,7 @@ export { parseConfig, subFrameConfig } from './formats/config.js';
 export { readDetectionsCsv, readSnapshotsCsv, writeDetectionsCsv, writeSnapshotsCsv } from './formats/csv.js';
 export { listArrays, readArray } from './formats/hdf5.js';
 export { readNpy, writeNpy } from './formats/npy.js';
+export { studioConfig } from './formats/studio.js';
 export { birdsEyeView, imageFrame, imagePlan, rangeAzimuthMap, sidelobeMeasure } from './image/image.js';
 export { type BoardFrames, boardFrames } from './live/board-frames.js';
 export { type BridgeFrames, bridgeFrames } from './live/bridge.js';

@@ -40,6 +40,7 @@ const ofDrives: readonly OperationName[] = [
   'readDrive',
   'readArray',
   'listArrays',
+  'studioConfig',
   'pushDrive',
   'finishDrive',
   'simulateDrive',

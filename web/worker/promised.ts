@@ -11,6 +11,7 @@ import type * as config from '../lib/formats/config.js';
 import type * as csv from '../lib/formats/csv.js';
 import type * as hdf5 from '../lib/formats/hdf5.js';
 import type * as npy from '../lib/formats/npy.js';
+import type * as studio from '../lib/formats/studio.js';
 import type * as image from '../lib/image/image.js';
 import type * as calibrate from '../lib/mounting/calibrate.js';
 import type * as array from '../lib/radar/array.js';
@@ -60,6 +61,7 @@ type Functions = typeof array &
   typeof npy &
   typeof region &
   typeof simulate &
+  typeof studio &
   typeof street &
   typeof theory &
   typeof trajectory &
@@ -99,7 +101,9 @@ export const argumentCounts = {
   waveformPreset: 1,
   waveformSummary: 1,
   joinCascade: 2,
+  recordingParts: 1,
   parseConfig: 1,
+  studioConfig: 2,
   subFrameConfig: 2,
   parseBoardLog: 2,
   readArray: 2,

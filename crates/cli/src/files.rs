@@ -2,9 +2,10 @@
 
 use crate::destination::{Destination, file_behind};
 use crate::error::CliError;
+use crate::output::remark;
 use boresight_core::Waveform;
 use boresight_fleet::lines::sync_folder;
-use boresight_formats::RadarConfig;
+use boresight_formats::{RadarConfig, mmwave_studio};
 use boresight_report::Source;
 use boresight_simulate::{waveform_preset, waveform_presets};
 use serde::Deserialize;
@@ -246,6 +247,34 @@ enum WaveformFile {
     Alone(Waveform),
 }
 
+/// A board's configuration, as [`config_text`] reads it.
+pub fn radar_config(path: &Path, files: &Files) -> Result<RadarConfig, CliError> {
+    Ok(RadarConfig::parse(&config_text(path, files)?)?)
+}
+
+/// The text of a `.cfg` file. mmWave Studio's `NAME.mmwave.json` is translated into one, with the
+/// board that the `NAME.setup.json` beside it names, if that exists.
+pub fn config_text(path: &Path, files: &Files) -> Result<Vec<u8>, CliError> {
+    let text = files.read(path)?;
+    if !mmwave_studio::is_json(&text) {
+        return Ok(text);
+    }
+    let setup = setup_of(path).filter(|setup| setup.exists());
+    if let Some(setup) = &setup {
+        remark([format!("the board is read from {}", setup.display())]);
+    }
+    let setup = setup.map(|setup| files.read(&setup)).transpose()?;
+    Ok(mmwave_studio::config_text(&text, setup.as_deref())?.into_bytes())
+}
+
+/// Where mmWave Studio writes the setup that belongs to a configuration.
+fn setup_of(path: &Path) -> Option<PathBuf> {
+    let name = path.file_name()?.to_str()?;
+    let stem = name.strip_suffix(".json")?;
+    let stem = stem.strip_suffix(".mmwave").unwrap_or(stem);
+    Some(path.with_file_name(format!("{stem}.setup.json")))
+}
+
 /// Names of the waveforms known by name.
 pub fn known_waveforms() -> String {
     waveform_presets().collect::<Vec<_>>().join(", ")
@@ -258,7 +287,8 @@ pub fn waveform(text: &str, files: &Files) -> Result<Waveform, CliError> {
     }
     let path = PathBuf::from(text);
     match ending(&path).as_str() {
-        "cfg" => Ok(RadarConfig::parse(&files.read(&path)?)?.waveform),
+        "cfg" => Ok(radar_config(&path, files)?.waveform),
+        "json" if text.ends_with(".mmwave.json") => Ok(radar_config(&path, files)?.waveform),
         "json" => {
             let file =
                 serde_json::from_slice(&files.read(&path)?).map_err(|error| CliError::Json {
@@ -273,7 +303,7 @@ pub fn waveform(text: &str, files: &Files) -> Result<Waveform, CliError> {
         }
         _ => Err(CliError::Option {
             option: "--waveform",
-            expected: format!("{}, a .json or a .cfg file", known_waveforms()),
+            expected: format!("{}, a .json, .mmwave.json or .cfg file", known_waveforms()),
             given: format!("{text:?}"),
         }),
     }

@@ -92,3 +92,37 @@ fn a_cascade_is_its_folder_or_one_of_its_files() {
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(said.contains("no slave3_0000_data.bin"), "{said}");
 }
+
+#[test]
+fn mmwave_studio_json_and_split_recordings_give_the_results_of_one_file_and_its_cfg() {
+    let (bin, cfg) = recorded();
+    let golden = format!("{ROOT}/tests/golden/mmwave-studio/awr1642.mmwave.json");
+    let estimate = |file: &str, config: &str| {
+        let output = boresight(&["estimate", file, "--config", config, "--json"]);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success(), "{said}");
+        (String::from_utf8(output.stdout).unwrap(), said)
+    };
+    let (wanted, _) = estimate(&bin, &cfg);
+    let (found, said) = estimate(&bin, &golden);
+    assert_eq!(found, wanted);
+    assert!(said.contains("awr1642.setup.json"), "{said}");
+
+    let parts = folder("boards-parts");
+    let bytes = std::fs::read(&bin).unwrap();
+    // More than nine parts: order by number is not order by name.
+    for (k, part) in bytes.chunks(bytes.len().div_ceil(11)).enumerate() {
+        std::fs::write(parts.join(format!("adc_data_Raw_{k}.bin")), part).unwrap();
+    }
+    assert_eq!(estimate(parts.to_str().unwrap(), &cfg).0, wanted);
+    std::fs::remove_file(parts.join("adc_data_Raw_4.bin")).unwrap();
+    let (_, said) = estimate(parts.to_str().unwrap(), &cfg);
+    assert!(said.contains("lacks adc_data_Raw_4.bin"), "{said}");
+
+    // Without the setup, the board is not known.
+    let alone = folder("boards-studio").join("x.mmwave.json");
+    std::fs::copy(&golden, &alone).unwrap();
+    let output = boresight(&["estimate", &bin, "--config", alone.to_str().unwrap()]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("--array"), "{said}");
+}

@@ -24,6 +24,16 @@ pub enum FormatError {
         /// What was given.
         given: String,
     },
+    /// A field of a radar configuration in JSON cannot be used.
+    #[error("configuration: {field} is {given}; expected {expected}")]
+    ConfigField {
+        /// Path of the field.
+        field: String,
+        /// What would have been accepted.
+        expected: String,
+        /// What was given.
+        given: String,
+    },
     /// A radar configuration lacks a command it needs.
     #[error("the configuration has no {command} line, which gives {purpose}")]
     MissingCommand {
@@ -55,9 +65,9 @@ pub enum FormatError {
         /// What was given.
         given: String,
     },
-    /// The files of a cascade of chips are not those of one recording.
+    /// Files are not the parts of one recording.
     #[error("{what}: {given}; expected {expected}")]
-    Cascade {
+    Parts {
         /// What is wrong.
         what: String,
         /// What would have been accepted.
@@ -159,11 +169,11 @@ impl Diagnose for FormatError {
     fn code(&self) -> &'static str {
         match self {
             Self::Argument(error) => error.code(),
-            Self::Config { .. } => "config-value",
+            Self::Config { .. } | Self::ConfigField { .. } => "config-value",
             Self::MissingCommand { .. } => "config-incomplete",
             Self::NoWholeFrame { .. } => "capture-too-short",
             Self::Layout { .. } => "capture-layout",
-            Self::Cascade { .. } => "cascade-files",
+            Self::Parts { .. } => "recording-parts",
             Self::Binary { .. } => "malformed-file",
             Self::Table { .. } => "malformed-table",
             Self::Hdf5 { .. } => "malformed-hdf5",
@@ -182,6 +192,7 @@ impl Diagnose for FormatError {
             Self::Config { line, command, what, expected, given } => {
                 Details::new(format!("line {line}: {command}: {what}"), expected, given)
             }
+            Self::ConfigField { field, expected, given } => Details::new(field, expected, given),
             Self::MissingCommand { command, purpose } => {
                 Details::new("configuration", format!("a {command} line ({purpose})"), "none")
             }
@@ -191,7 +202,7 @@ impl Diagnose for FormatError {
                 format!("{given} bytes"),
             ),
             Self::Layout { what, expected, given } => Details::new(*what, expected, given),
-            Self::Cascade { what, expected, given } => Details::new(what, expected, given),
+            Self::Parts { what, expected, given } => Details::new(what, expected, given),
             Self::Binary { format, offset, what, expected, given } => {
                 Details::new(format!("{format} at byte {offset}: {what}"), expected, given)
             }

@@ -1,6 +1,7 @@
 //! Readers and writers of the files radar engineers have.
 //!
 //! - [`mmwave_cfg`]: the text configuration of Texas Instruments' mmWave boards.
+//! - [`mmwave_studio`]: the JSON configuration of mmWave Studio.
 //! - [`dca1000`]: raw samples recorded by the DCA1000 capture card, or of a cascade of chips, read with such a
 //!   configuration.
 //! - [`ti_uart`]: the packets a board's demo firmware sends over its serial port.
@@ -41,6 +42,7 @@ pub mod hdf5;
 pub mod json;
 pub mod mcap;
 pub mod mmwave_cfg;
+pub mod mmwave_studio;
 pub mod npy;
 pub mod pcd;
 pub mod radarscenes;

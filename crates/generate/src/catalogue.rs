@@ -67,7 +67,7 @@ pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
 /// What functions return, by subject.
 pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
     use boresight_wasm::{
-        calibration_methods, capture, cascade, config, count, drive, estimate, hdf5, image, npy,
+        calibration_methods, capture, config, count, drive, estimate, hdf5, image, npy, recording,
         region, street, trajectory,
     };
     vec![
@@ -99,7 +99,8 @@ pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
                 config::ConfigRecord::KIND,
                 region::RegionOfInterest::KIND,
                 capture::CaptureInfo::KIND,
-                cascade::CascadeCapture::KIND,
+                recording::CascadeCapture::KIND,
+                recording::RecordingParts::KIND,
                 boresight_pipeline::FrameResult::KIND,
                 boresight_pipeline::FrameCells::KIND,
                 boresight_pipeline::CellExplanation::KIND,

@@ -31,8 +31,6 @@ pub mod calibration_methods;
 #[cfg(feature = "chain")]
 pub mod capture;
 pub mod carry;
-#[cfg(feature = "core")]
-pub mod cascade;
 #[cfg(feature = "chain")]
 mod cells;
 #[cfg(feature = "chain")]
@@ -62,6 +60,8 @@ pub mod options;
 mod panic;
 pub mod read;
 #[cfg(feature = "core")]
+pub mod recording;
+#[cfg(feature = "core")]
 pub mod region;
 pub mod report;
 #[cfg(feature = "drives")]
@@ -70,6 +70,8 @@ mod scan_motion;
 pub mod simulate;
 #[cfg(feature = "core")]
 pub mod street;
+#[cfg(feature = "drives")]
+mod studio;
 #[cfg(feature = "core")]
 mod suits;
 #[cfg(feature = "core")]

@@ -30,13 +30,13 @@ const ofRows = async (page) =>
 const profiles = async (page) =>
   assertCsv(await saved(page, '[data-plot="range-time"] [data-export="csv"]'), 'frame,time_s,range_m,power_dbfs');
 const listed = (page) => page.locator('.files .file').allInnerTexts();
-const refused = async (page, files) => {
+const refused = async (page, files, code = 'recording-parts') => {
   await drop(page, files);
   await page.waitForFunction(
     (names) => names.some((name) => document.querySelector('[role="alert"]')?.textContent.includes(name)),
     files.map(({ name }) => name),
   );
-  assert.equal(await page.locator('[role="alert"]').getAttribute('data-error'), 'ambiguous');
+  assert.equal(await page.locator('[role="alert"]').getAttribute('data-error'), code);
   return page.locator('[role="alert"]').innerText();
 };
 
@@ -105,12 +105,15 @@ browserTest('parts: what is missing between them is named above the plots', { pa
 browserTest('parts: files of several recordings are refused by name', { path }, async ({ page }) => {
   await ready(page);
   const one = (name) => ({ name, bytes: parts[0] });
-  assert.match(await refused(page, [one('left_0.bin'), one('right_1.bin'), cfg]), /right_1\.bin.*“left_0\.bin”/s);
-  assert.match(await refused(page, [one('drive.bin'), one('walk.bin')]), /differ in their number alone/);
-  assert.match(await refused(page, [one('raw_1.bin'), one('raw_01.bin')]), /two files are number 1/);
-  assert.match(await refused(page, [one('day_20261124.bin'), one('day_20261125.bin')]), /hardly of one recording/);
   assert.match(
-    await refused(page, [one('raw_7.bin'), cfg, { ...cfg, name: 'other.cfg' }]),
+    await refused(page, [one('left_0.bin'), one('right_1.bin'), cfg]),
+    /right_1\.bin.*differs from left_0\.bin/s,
+  );
+  assert.match(await refused(page, [one('drive.bin'), one('walk.bin')]), /differs from walk\.bin in its number/);
+  assert.match(await refused(page, [one('raw_1.bin'), one('raw_01.bin')]), /one file of each number/);
+  assert.match(await refused(page, [one('day_20261124.bin'), one('day_20261125.bin')]), /would be missing/);
+  assert.match(
+    await refused(page, [one('raw_7.bin'), cfg, { ...cfg, name: 'other.cfg' }], 'ambiguous'),
     /one configuration \(\.cfg or \.mmwave\.json\)/,
   );
   assert.deepEqual((await listed(page))[0]?.startsWith('xwr16xx'), true, 'what was open stays');

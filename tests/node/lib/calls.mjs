@@ -6,6 +6,9 @@ import { batchOf, planeWaves } from './assert.mjs';
 import { golden } from './drives.mjs';
 import { bin, cfg, dat } from './recording.mjs';
 
+const studio = (kind) =>
+  readFileSync(new URL(`../../golden/mmwave-studio/awr1642.${kind}.json`, import.meta.url), 'utf8');
+
 const boresight = { ...everything };
 const array = 'ula4';
 const angle = { method: 'iaa', gridPoints: 32, iaa: { iterations: 3 } };
@@ -104,6 +107,8 @@ export function goodCalls() {
     strongestRegion: [cube, { bins: 5, chirps: 4 }],
     parseConfig: [{ text: cfg, iqOrder: 'qi' }],
     joinCascade: [cascadeFiles, cascadeCfg],
+    recordingParts: [['a_1.bin', 'a_0.bin']],
+    studioConfig: [studio('mmwave'), studio('setup')],
     subFrameConfig: [cfg, 0],
     parseBoardLog: [Uint8Array.from(dat.subarray(0, 2000)), cfg],
     readNpy: [boresight.writeNpy({ kind: 'real', data: Float64Array.of(1, 2), shape: [2] })],

@@ -20,6 +20,7 @@ import type {
   Estimate,
   FrameCells,
   FrameResult,
+  RecordingParts,
 } from '../types.js';
 
 /** A raw capture (`.bin` of a DCA1000) with the board's configuration (`.cfg`). */
@@ -73,6 +74,16 @@ export class Capture extends Handle<glue.Capture> {
   cellSpectrum(cell: Cell, angle?: AngleOptions, options?: ChainOptions): Estimate {
     return this.use((raw) => raw.cellSpectrum(cell, angle, options) as Estimate);
   }
+}
+
+/**
+ * Orders the files of one recording by their names: `adc_data_Raw_0.bin`, `adc_data_Raw_1.bin` and so on, whose
+ * bytes follow one another, or those of a cascade, for {@link joinCascade}.
+ *
+ * @throws BoresightError `recording-parts` for files of several recordings.
+ */
+export function recordingParts(names: readonly string[]): RecordingParts {
+  return call(() => glue.recordingParts(names) as RecordingParts);
 }
 
 /**

@@ -10,11 +10,11 @@ import type {
 
 /** A board's configuration with what overrides it in how samples are read. */
 export interface ReadingConfig extends ReadingOptions {
-  /** The `.cfg`. */
+  /** The text of a `.cfg` file. */
   text: TextInput;
 }
 
-/** A board's configuration (`.cfg`). */
+/** A board's configuration: the text of a `.cfg` file, or what `studioConfig` makes of mmWave Studio's JSON. */
 export type ConfigInput = TextInput | ReadingConfig;
 
 /** Options of the chain from frames to detections. */

@@ -2,7 +2,7 @@ import * as glue from '../../wasm/boresight.js';
 import { call } from '../runtime/instance.js';
 import type { ConfigInput, RadarConfig, TextInput } from '../types.js';
 
-/** Reads the configuration (`.cfg`) of a Texas Instruments mmWave board. */
+/** Reads the configuration of a Texas Instruments mmWave board: the text of its `.cfg` file. */
 export function parseConfig(config: ConfigInput): RadarConfig {
   return call(() => glue.parseConfig(config) as RadarConfig);
 }

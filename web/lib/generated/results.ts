@@ -560,6 +560,16 @@ export interface CascadeCapture {
   warnings: Warning[];
 }
 
+/** The files of one recording. */
+export interface RecordingParts {
+  /** Indices of the files in order of time; of a cascade, in order of name. */
+  order: number[];
+  /** Whether they are the files of a cascade, which `joinCascade` joins. */
+  cascade: boolean;
+  /** Names of files that are missing between them. */
+  missing: string[];
+}
+
 /** A target in one frame. */
 export interface Detection {
   /** Frame, from 0; the first one where frames were combined. */

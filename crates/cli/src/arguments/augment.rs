@@ -11,7 +11,7 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Each new frame is a recorded one with all that it holds moved in range (equation 10 of Sang et al. 2021), to train networks on more \
 ranges than were recorded. FILE is, by its ending:
-  .bin  raw samples of a DCA1000 capture card, with --config; of a cascade of chips one of its files, or their folder
+  .bin  raw samples of a DCA1000 capture card, with --config; or a folder of the files of one recording
   .npy  a data cube (frames x loops x transmitters x receivers x samples), with --config or --waveform
   .mat, .h5  the same in a file of MATLAB (-v7.3) or HDF5, --dataset naming one of several arrays
 The new frames are a data cube, for whose estimates the same --config or --waveform stands.")]
@@ -21,7 +21,7 @@ pub struct AugmentArguments {
     /// Which array of a .mat or .h5 file that has several.
     #[arg(long, value_name = "NAME")]
     pub dataset: Option<String>,
-    /// The board's configuration (.cfg).
+    /// The board's configuration: a .cfg file, or .mmwave.json of mmWave Studio.
     #[arg(long, value_name = "CFG")]
     pub config: Option<PathBuf>,
     /// Waveform of a data cube: awr1642, corner, 3dcnn-simulated, 3dcnn-experiment, or a JSON file.

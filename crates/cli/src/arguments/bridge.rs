@@ -22,7 +22,7 @@ TCP 127.0.0.1:8417, a WebSocket without authentication or encryption for up to 1
 to an interface of its own. Whoever reaches the address of --host can read the radar.
 Pages of servers on this machine may connect. --origin names others; pages from files have the origin null, and any page can take it.")]
 pub struct BridgeArguments {
-    /// The board's configuration (.cfg), which tells how large frames are.
+    /// The board's configuration: a .cfg file, or .mmwave.json of mmWave Studio. It gives the size of a frame.
     #[arg(long, value_name = "CFG")]
     pub config: PathBuf,
     /// Port that pages connect to; 0 for any that is free.

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = "\
 FILE is, by its ending:
-  .bin  raw samples of a DCA1000 capture card, with --config; of a cascade of chips one of its files, or their folder
+  .bin  raw samples of a DCA1000 capture card, with --config; or a folder of the files of one recording
   .npy  a data cube (frames x loops x chirps of a loop x receivers x samples), with --config or
         --waveform; or snapshots (elements, elements x snapshots or scenes x elements x snapshots),
         with --array
@@ -56,7 +56,7 @@ pub struct RadarArguments {
     /// Which array of a .mat or .h5 file that has several.
     #[arg(long, value_name = "NAME")]
     pub dataset: Option<String>,
-    /// The board's configuration (.cfg).
+    /// The board's configuration: a .cfg file, or .mmwave.json of mmWave Studio.
     #[arg(long, value_name = "CFG")]
     pub config: Option<PathBuf>,
     /// Which sub-frame of an advanced frame is read, from 0.

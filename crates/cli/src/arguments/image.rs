@@ -77,9 +77,9 @@ impl OnCommandLine for ViewGridOptions {
 /// Arguments of `image capture`.
 #[derive(Debug, Args)]
 pub struct ImageCaptureArguments {
-    /// Raw samples of a DCA1000 capture card (.bin); of a cascade of chips one of its files, or their folder.
+    /// Raw samples of a DCA1000 capture card (.bin); or a folder of the files of one recording.
     pub file: PathBuf,
-    /// The board's configuration (.cfg).
+    /// The board's configuration: a .cfg file, or .mmwave.json of mmWave Studio.
     #[arg(long, value_name = "CFG")]
     pub config: PathBuf,
     /// Shared arguments.

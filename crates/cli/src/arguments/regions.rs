@@ -10,7 +10,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = "\
 FILE is, by its ending:
-  .bin  raw samples of a DCA1000 capture card, with --config; of a cascade of chips one of its files, or their folder
+  .bin  raw samples of a DCA1000 capture card, with --config; or a folder of the files of one recording
   .npy  a data cube (frames x loops x transmitters x receivers x samples), with --config or --waveform
   .mat, .h5  the same in a file of MATLAB (-v7.3) or HDF5, --dataset naming one of several arrays
 

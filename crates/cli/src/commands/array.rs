@@ -5,7 +5,7 @@ use super::{capture, cube};
 use crate::arguments::{ArrayCommand, CalibrateArrayArguments, ShowCalibrationArguments};
 use crate::array;
 use crate::error::CliError;
-use crate::files::{self, Files};
+use crate::files::{self, Files, radar_config};
 use crate::numbers;
 use crate::output::remark;
 use crate::run::Run;
@@ -13,7 +13,7 @@ use boresight_array_calibration::{
     CalibrationOptions, CalibrationResult, CheckFigures, SteeringTable,
 };
 use boresight_core::{Array, ArrayCalibration};
-use boresight_formats::{RadarConfig, json};
+use boresight_formats::json;
 use boresight_math::decibels::power_to_db;
 use boresight_options::Named;
 use boresight_pipeline::array_calibration::{CalibrationFrames, calibrate_array};
@@ -87,7 +87,7 @@ fn result(
 fn named_array(arguments: &CalibrateArrayArguments, files: &Files) -> Result<Array, CliError> {
     match (&arguments.radar.array, &arguments.radar.config) {
         (Some(name), _) => array::array(name, files),
-        (None, Some(path)) => board_array(None, &RadarConfig::parse(&files.read(path)?)?, files),
+        (None, Some(path)) => board_array(None, &radar_config(path, files)?, files),
         (None, None) => Err(CliError::Option {
             option: "--array",
             expected: "the array that the table is of, or --config".into(),
@@ -150,7 +150,7 @@ fn show(arguments: &ShowCalibrationArguments, files: &Files) -> Result<String, C
 
 /// The line that makes a board apply a calibration.
 fn line(calibration: &ArrayCalibration, path: &Path, files: &Files) -> Result<String, CliError> {
-    let config = RadarConfig::parse(&files.read(path)?)?;
+    let config = radar_config(path, files)?;
     Ok(format!("{}\n", config.compensation_of(calibration)?))
 }
 

@@ -3,14 +3,14 @@
 use super::{capture, cube};
 use crate::arguments::AugmentArguments;
 use crate::error::CliError;
-use crate::files::{self, Files};
+use crate::files::{self, Files, radar_config};
 use crate::numbers;
 use crate::run::Run;
 use crate::terminal::name;
 use boresight_core::Progress;
 use boresight_core::{Complex32, Waveform};
+use boresight_formats::json;
 use boresight_formats::npy::{Element, preamble};
-use boresight_formats::{RadarConfig, json};
 use boresight_pipeline::{CubeFrames, FrameSource, PipelineError};
 use boresight_signal::{ShiftedFrame, shift_range};
 use serde_json::json;
@@ -26,7 +26,7 @@ pub fn run(arguments: &AugmentArguments, files: &Files) -> Result<String, CliErr
         }
         ending if numbers::ENDINGS.contains(&ending) => {
             let waveform = match config {
-                Some(path) => RadarConfig::parse(&files.read(path)?)?.waveform,
+                Some(path) => radar_config(path, files)?.waveform,
                 None => cube::named_waveform(arguments.waveform.as_deref(), files)?,
             };
             let dataset = arguments.dataset.as_deref();

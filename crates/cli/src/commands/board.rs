@@ -3,7 +3,7 @@
 use super::frame::frame_within;
 use crate::arguments::EstimateArguments;
 use crate::error::CliError;
-use crate::files::Files;
+use crate::files::{Files, radar_config};
 use crate::output::{Column, Table, remark};
 use boresight_formats::{BoardLog, RadarConfig};
 use std::path::Path;
@@ -28,7 +28,7 @@ pub fn run(
     read: impl FnOnce(Option<&RadarConfig>) -> Result<BoardLog, CliError>,
 ) -> Result<String, CliError> {
     let config = match &arguments.radar.config {
-        Some(path) => Some(RadarConfig::parse(&files.read(path)?)?),
+        Some(path) => Some(radar_config(path, files)?),
         None => None,
     };
     let log = read(config.as_ref())?;

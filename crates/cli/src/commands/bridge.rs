@@ -2,7 +2,7 @@
 
 use crate::arguments::BridgeArguments;
 use crate::error::CliError;
-use crate::files::Files;
+use crate::files::{Files, config_text};
 use crate::output::remark;
 use crate::run::interrupted;
 use boresight_formats::json;
@@ -15,7 +15,7 @@ use std::thread;
 
 /// Runs the bridge until Ctrl-C and returns what came.
 pub fn run(arguments: &BridgeArguments, files: &Files) -> Result<String, CliError> {
-    let config = files.read(&arguments.config)?;
+    let config = config_text(&arguments.config, files)?;
     let options = BridgeOptions {
         card: arguments.listen(),
         sender: arguments.sender(),

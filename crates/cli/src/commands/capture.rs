@@ -1,16 +1,16 @@
 //! Raw captures of boards.
 
 use super::chain::{chain_options, detections};
+use super::recording::Recording;
 use crate::arguments::{EstimateArguments, RadarArguments};
 use crate::error::CliError;
-use crate::files::Files;
+use crate::files::{Files, radar_config};
 use crate::output::remark;
 use crate::{array, network};
 use boresight_core::{Array, Waveform};
-use boresight_formats::dca1000::cascade;
 use boresight_formats::{Capture, RadarConfig, ReadingOptions, Settled};
 use boresight_pipeline::{Frame, FrameSource};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The frames of a capture.
 pub struct CaptureFrames<'a>(pub Capture<'a>);
@@ -55,7 +55,7 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// Reads the capture in `file`, one of its sub-frames where it has several; of a cascade of chips the files beside it that belong to it, or those of a folder.
+    /// Reads a capture, or one of its sub-frames; `file` is as in [`Recording::find`].
     pub fn read(
         file: &Path,
         config: Option<&Path>,
@@ -65,22 +65,14 @@ impl Samples {
     ) -> Result<Self, CliError> {
         let path = config.ok_or_else(|| CliError::Option {
             option: "--config",
-            expected: "the board's .cfg file, which tells how to read a .bin file".into(),
+            expected:
+                "the board's .cfg or .mmwave.json file, which gives the format of a .bin file"
+                    .into(),
             given: "nothing".into(),
         })?;
-        let config = sub_frame_of(RadarConfig::parse(&files.read(path)?)?, sub_frame)?;
+        let config = sub_frame_of(radar_config(path, files)?, sub_frame)?;
         let mut remarks = config.remarks.clone();
-        let bytes = match cascade_files(file)? {
-            Some(parts) => {
-                let read = |path: &PathBuf| Ok((path.display().to_string(), files.read(path)?));
-                let parts = parts.iter().map(read).collect::<Result<Vec<_>, CliError>>()?;
-                let named: Vec<_> = parts.iter().map(|(name, bytes)| (&**name, &**bytes)).collect();
-                let joined = cascade::join(&named, &config)?;
-                remarks.extend(joined.remarks);
-                joined.bytes
-            }
-            None => files.read(file)?,
-        };
+        let bytes = Recording::find(file)?.read(&config, &mut remarks, files)?;
         let settled = Settled::new(&bytes, &config, reading)?;
         remarks.extend(settled.remarks);
         remark(remarks.into_iter().map(|remark| remark.message));
@@ -91,29 +83,6 @@ impl Samples {
     pub fn frames(&self) -> Result<CaptureFrames<'_>, CliError> {
         Ok(CaptureFrames(Capture::new(&self.bytes, &self.config)?))
     }
-}
-
-/// The files of a cascade in a folder, or beside one of them.
-fn cascade_files(path: &Path) -> Result<Option<Vec<PathBuf>>, CliError> {
-    let is_part = |path: &Path| path.to_str().is_some_and(cascade::is_part);
-    let folder = match path.is_dir() {
-        true => path,
-        false if is_part(path) => match path.parent() {
-            Some(folder) if !folder.as_os_str().is_empty() => folder,
-            _ => Path::new("."),
-        },
-        false => return Ok(None),
-    };
-    let failed = |error| CliError::File { action: "read", path: folder.into(), error };
-    let mut parts = vec![];
-    for entry in std::fs::read_dir(folder).map_err(failed)? {
-        let path = entry.map_err(failed)?.path();
-        if is_part(&path) {
-            parts.push(path);
-        }
-    }
-    parts.sort();
-    Ok(Some(parts))
 }
 
 /// Opens a capture.

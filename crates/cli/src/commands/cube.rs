@@ -4,10 +4,10 @@ use super::capture::{Radar, board_array, sub_frame_of};
 use super::chain::{chain_options, detections};
 use crate::arguments::{EstimateArguments, RadarArguments};
 use crate::error::CliError;
-use crate::files::{self, Files};
+use crate::files::{self, Files, radar_config};
 use crate::{array, network};
 use boresight_core::{Complex32, InputError, Waveform};
-use boresight_formats::{NpyArray, RadarConfig};
+use boresight_formats::NpyArray;
 use boresight_pipeline::CubeFrames;
 use ndarray::{Array5, Axis};
 
@@ -33,7 +33,7 @@ pub fn open(
     let cube = read(file)?;
     let (waveform, array) = match &arguments.config {
         Some(path) => {
-            let config = RadarConfig::parse(&files.read(path)?)?;
+            let config = radar_config(path, files)?;
             let config = sub_frame_of(config, arguments.subframe)?;
             let array = board_array(arguments.array.as_deref(), &config, files)?;
             let calibration = arguments.calibration.as_deref();

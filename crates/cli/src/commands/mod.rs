@@ -20,6 +20,7 @@ mod mcap;
 mod messages;
 pub mod network;
 pub mod odometry;
+mod recording;
 pub mod regions;
 pub mod serve;
 pub mod simulate;

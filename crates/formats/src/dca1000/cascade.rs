@@ -60,13 +60,13 @@ fn error(
     expected: impl Into<String>,
     given: impl Into<String>,
 ) -> FormatError {
-    FormatError::Cascade { what: what.into(), expected: expected.into(), given: given.into() }
+    FormatError::Parts { what: what.into(), expected: expected.into(), given: given.into() }
 }
 
 /// Puts the files of a recording, with their names, together to the bytes of a capture.
 ///
 /// # Errors
-/// [`FormatError::Cascade`] for a file of another name, one that is there twice, a chip that is missing, files of unequal
+/// [`FormatError::Parts`] for a file of another name, one that is there twice, a chip that is missing, files of unequal
 /// lengths, and a configuration that is not of a cascade; [`FormatError::Binary`] for an index that is cut or says
 /// something else than its length.
 pub fn join(files: &[(&str, &[u8])], config: &RadarConfig) -> Result<Joined, FormatError> {

@@ -10,6 +10,9 @@ const LANES: usize = 4;
 /// Receivers of one chip of a cascade.
 pub(crate) const CHIP_RECEIVERS: usize = 4;
 
+/// Transmitters of one chip of a cascade.
+pub(crate) const CHIP_TRANSMITTERS: usize = 3;
+
 /// Chips of a cascade: master, slave 1, slave 2, slave 3.
 pub(crate) const CHIPS: usize = 4;
 

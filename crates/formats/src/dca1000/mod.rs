@@ -6,6 +6,7 @@
 pub mod cascade;
 mod evidence;
 pub(crate) mod layout;
+pub mod parts;
 mod reading;
 mod settled;
 mod write;

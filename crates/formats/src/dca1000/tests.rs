@@ -239,7 +239,7 @@ fn files_that_make_no_cascade_are_refused() {
     };
     let refused = |files: &[(String, Vec<u8>)], word: &str| {
         let error = join(files, &config).unwrap_err();
-        assert!(matches!(error, FormatError::Cascade { .. }), "{error:?}");
+        assert!(matches!(error, FormatError::Parts { .. }), "{error:?}");
         assert!(error.to_string().contains(word), "{error}");
     };
     refused(&[], "none");

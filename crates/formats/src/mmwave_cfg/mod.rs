@@ -13,6 +13,7 @@ mod sequence;
 
 use crate::dca1000::layout::{Layout, Plan};
 use crate::error::FormatError;
+use crate::mmwave_studio;
 use antennas::preset_of;
 use boresight_core::{Array, Remark, Sampling, Waveform, presets};
 use boresight_math::error::check_range;
@@ -84,14 +85,22 @@ pub struct RadarConfig {
 }
 
 impl RadarConfig {
-    /// Reads a configuration. Comments, either line ending, a byte order mark and a missing
-    /// `sensorStart` are fine; bytes that are not UTF-8 are replaced.
+    /// Reads the text of a `.cfg` file. Comments, either line ending, a byte order mark and a
+    /// missing `sensorStart` are fine; bytes that are not UTF-8 are replaced.
     ///
     /// # Errors
     /// [`FormatError::Config`] naming the line and argument that cannot be;
     /// [`FormatError::MissingCommand`] where one of `profileCfg`, `chirpCfg`, `frameCfg` and
-    /// `channelCfg` is absent.
+    /// `channelCfg` is absent; [`FormatError::ConfigField`] for JSON, which
+    /// [`mmwave_studio::config_text`] translates.
     pub fn parse(bytes: &[u8]) -> Result<Self, FormatError> {
+        if mmwave_studio::is_json(bytes) {
+            return Err(FormatError::ConfigField {
+                field: "the text".into(),
+                expected: "commands of a .cfg file; studioConfig translates JSON into them".into(),
+                given: "JSON".into(),
+            });
+        }
         let text = String::from_utf8_lossy(bytes);
         let mut commands = Commands::default();
         for (index, raw) in text.trim_start_matches('\u{feff}').lines().enumerate() {

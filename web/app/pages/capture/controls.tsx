@@ -19,10 +19,9 @@ import { Sidebar } from '../../ui/sidebar.tsx';
 import { configured } from './array-calibration/in-effect.ts';
 import { ownCalibrations } from './array-calibration/own-calibrations.ts';
 import { cellUnavailable, networkFor, seesElevation, usedArray } from './detections/process.ts';
-import { fileProblem, loaded, openBundled, openSimulated, reopenFiles, waiting } from './files/files.ts';
+import { fileProblem, isStudio, loaded, openBundled, openSimulated, reopenFiles, waiting } from './files/files.ts';
 import { openFiles } from './files/open.ts';
 import { SIMULATED } from './files/simulated.ts';
-import { isStudio } from './files/studio.ts';
 import { captureCodec, captureState, update } from './state.ts';
 
 const ARRAY_NAMES = {

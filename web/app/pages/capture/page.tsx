@@ -29,13 +29,13 @@ import {
   boardLog,
   fileProblem,
   filesWanted,
+  isStudio,
   loaded,
   openBundled,
   startFiles,
   type Waiting,
   waiting,
 } from './files/files.ts';
-import { isStudio } from './files/studio.ts';
 import { FrameBar } from './frames/frame-bar.tsx';
 import { CellPanel } from './plots/cell-panel.tsx';
 import { startOverTime } from './plots/over-time.ts';

@@ -10,13 +10,21 @@ import { api, describeError, FileProblem, type Problem, pool } from '../../../da
 import { CAPTURE_KINDS } from '../../../kinds.ts';
 import type { NamedFile } from '../../../ui/entries.ts';
 import { captureState, readingOptions, update } from '../state.ts';
-import { type Parts, partsOf } from './parts.ts';
 import { SIMULATED, simulateCapture } from './simulated.ts';
-import { configOfStudio, isSetup, isStudio } from './studio.ts';
 
 /** The setup is what mmWave Studio says of the board, beside the configuration. */
 const KINDS = [...CAPTURE_KINDS, 'setup'] as const;
 type Kind = (typeof KINDS)[number];
+
+export const isStudio = (name: string): boolean => /\.json$/i.test(name);
+const isSetup = (name: string): boolean => /\.setup\.json$/i.test(name);
+
+/** The files of a recording in order, as `recordingParts` finds them. */
+interface Parts {
+  files: readonly File[];
+  cascade: boolean;
+  missing: readonly string[];
+}
 
 export interface OpenFile {
   kind: Kind;
@@ -351,9 +359,27 @@ async function configText(cfg: File | undefined, setup: File | undefined): Promi
   if (cfg && setup && !isStudio(cfg.name))
     throw new FileProblem('ambiguous', setup.name, `a .mmwave.json is expected with it, not “${cfg.name}”`);
   if (!cfg || !isStudio(cfg.name)) return cfg?.text();
-  const read = async (file: File) => ({ name: file.name, text: await file.text() });
-  return configOfStudio(await read(cfg), setup ? await read(setup) : null);
+  const [mmwave, board] = [await cfg.text(), await setup?.text()];
+  return pool().studioConfig(mmwave, board).catch(failBecauseOf(cfg));
 }
+
+/** The files of one recording in order of time. */
+function inOrder(samples: readonly File[]): Parts {
+  try {
+    const { order, ...rest } = api.recordingParts(samples.map(({ name }) => name));
+    return { files: order.map((at) => samples[at] as File), ...rest };
+  } catch (error) {
+    return failBecauseOf(samples[0] as File)(error);
+  }
+}
+
+/** Says which file an error is about. */
+const failBecauseOf =
+  (file: File) =>
+  (error: unknown): never => {
+    const { code, message } = describeError(error);
+    throw new FileProblem(code, file.name, message);
+  };
 
 /** One file of a kind at most but of samples, none too large. */
 function chosen(files: readonly File[]): Own {
@@ -377,7 +403,7 @@ function chosen(files: readonly File[]): Own {
     else given[kind] = within(file, file.size);
   }
   if (samples.length > 0) {
-    given.bin = partsOf(samples);
+    given.bin = inOrder(samples);
     const bytes = samples.reduce((sum, { size }) => sum + size, 0);
     within(given.bin.files[0] as File, bytes);
   }
