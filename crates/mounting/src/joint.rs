@@ -9,9 +9,9 @@ use crate::options::CalibrationOptions;
 use crate::radars;
 use crate::recursive::Recursive;
 use crate::recursive::information::{Information, Matrix, UNKNOWNS, Vector};
-use crate::small::{dot, inverse, times};
 #[cfg(doc)]
 use boresight_core::InputError;
+use boresight_math::linalg::small::{dot, inverse, times};
 use std::sync::Arc;
 
 /// Unknowns that belong to the car: inverse scale, bias, slip gradient, and the delay of its radars, taken to

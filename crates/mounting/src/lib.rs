@@ -64,7 +64,6 @@ mod plane;
 mod radars;
 pub mod recursive;
 pub mod signs;
-mod small;
 pub mod statistics;
 mod symmetric;
 pub mod trajectory;

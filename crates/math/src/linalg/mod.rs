@@ -1,10 +1,11 @@
-//! Dense complex linear algebra on [`ndarray`] matrices.
+//! Dense complex linear algebra on [`ndarray`] matrices, and [`small`] real matrices.
 
 mod cholesky;
 mod eigenvalues;
 mod hermitian;
 mod least_squares;
 mod roots;
+pub mod small;
 mod split;
 mod tridiagonal;
 

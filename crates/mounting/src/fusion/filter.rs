@@ -1,6 +1,6 @@
 //! A Kalman filter of the car's motion with errors of direction and scale for each radar.
 
-use crate::small;
+use boresight_math::linalg::small;
 
 /// Speed, yaw rate and their changes.
 const MOTION: usize = 4;

@@ -2,7 +2,7 @@
 
 use super::part::Part;
 use super::{CAR, CarMatrix, CarVector};
-use crate::small::{dot, inverse, times};
+use boresight_math::linalg::small::{dot, inverse, times};
 
 /// Share of what is known of an angle without a part that is told from none.
 const LEAST_LEFT: f64 = 1e-9;

@@ -3,7 +3,7 @@
 use super::{CAR, CarMatrix, CarVector};
 use crate::equations::NormalEquations;
 use crate::recursive::information::Vector;
-use crate::small::{inverse, times};
+use boresight_math::linalg::small::{inverse, times};
 
 /// Equations about the vehicle's reference. The angle as the drive alone has it, `value = angle + slopes . car`, is known with
 /// variance `own`; what is left of the equations once the angle is eliminated is independent of that, and of any error of the drive's angle.

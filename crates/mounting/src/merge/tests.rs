@@ -43,20 +43,22 @@ fn given(seed: u64, drives: usize) -> Given {
                 near(0.04, 0.01),
             ];
             let (mut n, mut right) = ([[0.0; UNKNOWNS]; UNKNOWNS], [0.0; UNKNOWNS]);
-            let observations: Vec<Observation> =
-                (0..ROWS)
-                    .map(|_| {
-                        let row = std::array::from_fn(|i| {
-                            if i == 0 { 1.0 } else { SLOPES[i] * random.normal() }
-                        });
-                        let value = 0.004 * random.normal();
-                        crate::small::add_outer(&mut n, &row, 1.0 / (SIGMA * SIGMA));
-                        for i in 0..UNKNOWNS {
-                            right[i] += row[i] * value / (SIGMA * SIGMA);
-                        }
-                        (row, value)
-                    })
-                    .collect();
+            let observations: Vec<Observation> = (0..ROWS)
+                .map(|_| {
+                    let row =
+                        std::array::from_fn(
+                            |i| {
+                                if i == 0 { 1.0 } else { SLOPES[i] * random.normal() }
+                            },
+                        );
+                    let value = 0.004 * random.normal();
+                    boresight_math::linalg::small::add_outer(&mut n, &row, 1.0 / (SIGMA * SIGMA));
+                    for i in 0..UNKNOWNS {
+                        right[i] += row[i] * value / (SIGMA * SIGMA);
+                    }
+                    (row, value)
+                })
+                .collect();
             let equations = NormalEquations {
                 reference,
                 information: upper(&n),

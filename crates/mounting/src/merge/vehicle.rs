@@ -4,8 +4,8 @@ use super::elimination::{About, Drive, Effects, Eliminated, Layout, Residual, So
 use super::{CAR, CarVector};
 use crate::error::MountingError;
 use crate::recursive::block::student;
-use crate::small::invert;
 use boresight_core::InputError;
+use boresight_math::linalg::small::invert;
 
 /// Drives that what is expected of their differences counts as.
 const PRIOR_DRIVES: f64 = 2.0;

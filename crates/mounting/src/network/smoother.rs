@@ -5,7 +5,7 @@ use super::dense::{Layer, asinh, one};
 use super::recurrent::Recurrent;
 use super::{DeepEgo, NetworkError, WeighedMotion, Weights};
 use crate::plane::{turned, turned_covariance};
-use crate::small;
+use boresight_math::linalg::small;
 
 /// Numbers of a frame beside its context.
 const MOTION: usize = 9;

@@ -1,7 +1,7 @@
 //! Some seconds of frames, whose errors are taken as correlated.
 
 use super::information::{Matrix, UNKNOWNS, Vector};
-use crate::small::add_outer;
+use boresight_math::linalg::small::add_outer;
 use serde::{Deserialize, Serialize};
 
 /// A block lasts as long at least, s, and goes as far, m: what errs is in the scene, and a slow car has the same one before it for longer.

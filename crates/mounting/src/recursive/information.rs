@@ -5,7 +5,7 @@
 //! lasts from block to block, is learnt from the scatter of the blocks about the solution, beginning with what real drives have.
 
 use super::block::{Sum, student};
-use crate::small::{add_outer, inverse, times};
+use boresight_math::linalg::small::{add_outer, inverse, times};
 use serde::{Deserialize, Serialize};
 
 /// Unknowns: mounting angle (rad), inverse scale, bias times inverse scale (rad/s), slip gradient

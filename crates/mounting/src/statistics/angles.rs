@@ -4,8 +4,8 @@
 use super::frames::Frame;
 use super::robust::{deviation, median};
 use super::{Angles, Row, Untold};
-use crate::small::{add_outer, inverse, times};
 use boresight_core::{DriveLog, Mounting};
+use boresight_math::linalg::small::{add_outer, inverse, times};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Delays tried, s, and the step between them.

@@ -3,7 +3,7 @@
 use super::frames::Frame;
 use super::robust::{deviation, median};
 use super::{Noise, Row, Untold};
-use crate::small::{add_outer, inverse, times};
+use boresight_math::linalg::small::{add_outer, inverse, times};
 
 /// Azimuths at which the noise is told, deg, and how far on either side detections count for it.
 const AT_DEG: [f64; 4] = [0.0, 30.0, 50.0, 65.0];

@@ -1,14 +1,17 @@
-//! Symmetric positive definite systems, small or of a size known at run time.
+//! Small real matrices on the stack, without allocation: inverses of symmetric positive definite
+//! matrices, products and outer products. Larger and complex ones are in [`super::Cholesky`].
 
 /// Inverse of a symmetric positive definite matrix by Cholesky factorisation; `None` where a pivot
 /// is not positive or not finite.
-pub(crate) fn inverse<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
+pub fn inverse<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
     let (mut l, mut result) = ([[0.0; N]; N], [[0.0; N]; N]);
     invert(a.as_flattened(), N, l.as_flattened_mut(), result.as_flattened_mut()).then_some(result)
 }
 
-/// The same of a matrix of `n` rows, row by row, with room for its factor and its inverse, all zero; whether there is one.
-pub(crate) fn invert(a: &[f64], n: usize, l: &mut [f64], result: &mut [f64]) -> bool {
+/// Inverse of a symmetric positive definite matrix of `n` rows, stored row by row. `l` and `result` are
+/// zero at first and receive the factor and the inverse. Returns whether there is an inverse.
+#[inline]
+pub fn invert(a: &[f64], n: usize, l: &mut [f64], result: &mut [f64]) -> bool {
     for i in 0..n {
         for j in 0..=i {
             let rest: f64 = a[i * n + j] - (0..j).map(|k| l[i * n + k] * l[j * n + k]).sum::<f64>();
@@ -37,17 +40,17 @@ pub(crate) fn invert(a: &[f64], n: usize, l: &mut [f64], result: &mut [f64]) -> 
 }
 
 /// Scalar product.
-pub(crate) fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
+pub fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
     (0..N).map(|i| a[i] * b[i]).sum()
 }
 
 /// Matrix times vector.
-pub(crate) fn times<const N: usize, const M: usize>(a: &[[f64; M]; N], x: &[f64; M]) -> [f64; N] {
+pub fn times<const N: usize, const M: usize>(a: &[[f64; M]; N], x: &[f64; M]) -> [f64; N] {
     std::array::from_fn(|i| dot(&a[i], x))
 }
 
 /// Adds `weight * x x^T`.
-pub(crate) fn add_outer<const N: usize>(a: &mut [[f64; N]; N], x: &[f64; N], weight: f64) {
+pub fn add_outer<const N: usize>(a: &mut [[f64; N]; N], x: &[f64; N], weight: f64) {
     for i in 0..N {
         for j in 0..N {
             a[i][j] += weight * x[i] * x[j];
