@@ -1,7 +1,9 @@
-// Sets up, builds and runs every test. `npm test -- --only rust,node` runs some steps; their names
-// are in the closing table. Nothing is skipped where CI=true.
+// Sets up, builds and tests in three tiers: `npm test` (what a change needs), `npm run check` (lints, docs, licences, sizes) and
+// `npm run test:all` (both and everything else). `-- --only rust,node` runs some steps, `-- --rest` leaves out those of
+// `npm test`; names are in the closing table. Where CI=true, a skipped test is a failure.
 import { mkdirSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { parseArgs } from 'node:util';
 import {
   buildDemo,
   buildPackage,
@@ -50,57 +52,112 @@ function nodeTests(folder, ...options) {
 }
 
 /** Tests of pages, by two processes that each keep one browser. */
-const browserTests = [
+const browserTests = (...names) => [
   node,
   '--test',
   '--test-reporter=spec',
   '--test-concurrency=2',
-  'tests/browser/first-half.mjs',
-  'tests/browser/second-half.mjs',
+  ...names.map((name) => `tests/browser/${name}.mjs`),
+];
+const npm = (name, ...args) => ({
+  name,
+  command: [
+    process.platform === 'win32' ? 'npm.cmd' : 'npm',
+    'run',
+    '--silent',
+    name,
+    ...(args.length ? ['--', ...args] : []),
+  ],
+  counts: checkCounts,
+});
+
+const build = { name: 'build', work: buildPackage, counts: checkCounts };
+
+/** `npm test`: what a change of code needs. */
+const test = [
+  { name: 'rust', command: [node, 'scripts/test-rust.mjs'], counts: cargoCounts },
+  wasmTests,
+  build,
+  { name: 'build-demo', work: buildDemo, counts: checkCounts },
+  { name: 'node', command: () => nodeTests('tests/node'), counts: nodeCounts },
+  { name: 'flows', command: () => nodeTests('tests/browser/flows', '--test-concurrency=2'), counts: nodeCounts },
 ];
 
-const steps = [
+/** `npm run check`: everything that is read rather than run. */
+const check = [
+  // Types and sizes are those of what was built.
+  build,
   { name: 'format', command: ['cargo', 'fmt', '--all', '--check'], counts: checkCounts },
   { name: 'lint', command: ['biome', 'check', '--error-on-warnings'], counts: checkCounts },
-  { name: 'clippy', command: clippy('--all-targets'), counts: checkCounts },
-  // The modules with their features. Core and drives are checked as they are built, for WebAssembly and with their profile, so
-  // that all share what is compiled for the host. That of networks is checked natively, where most of what it depends on has
-  // been: nothing of it differs for WebAssembly.
+  { name: 'clippy', command: clippy('--workspace', '--all-targets'), counts: checkCounts },
+  // Core and drives are checked for WebAssembly, with the profile of their build, so that compiled dependencies are shared.
   ...[core, drives].map((module) => ({
     name: `clippy-${module.feature}`,
     command: clippy(...cargoArguments(module)),
     counts: checkCounts,
   })),
+  // Nothing of the module of networks differs between WebAssembly and the host, whose dependencies `clippy` has compiled.
   { name: 'clippy-neural', command: clippy(...crateArguments(neural)), counts: checkCounts },
+  {
+    // Without libFuzzer, which needs a C++ compiler and is linked only for fuzzing.
+    name: 'clippy-fuzz',
+    command: clippy('--manifest-path', 'fuzz/Cargo.toml', '--locked', '--features', 'network,fleet'),
+    variables: { CUSTOM_LIBFUZZER_PATH: '/none/libnone.a', CARGO_TARGET_DIR: join(root, 'target') },
+    counts: checkCounts,
+  },
   {
     name: 'doc',
     command: ['cargo', 'doc', '--no-deps', '--quiet'],
     variables: { RUSTDOCFLAGS: '-D warnings' },
     counts: checkCounts,
   },
-  {
-    // Without libFuzzer, which needs a compiler of C++ and is linked only where fuzzing is done.
-    name: 'fuzz',
-    command: clippy('--manifest-path', 'fuzz/Cargo.toml', '--locked', '--features', 'network,fleet'),
-    variables: { CUSTOM_LIBFUZZER_PATH: '/none/libnone.a', CARGO_TARGET_DIR: join(root, 'target') },
-    counts: checkCounts,
-  },
   script('check-dependencies'),
   script('check-licences'),
   script('check-workflows'),
   { name: 'scripts', command: () => nodeTests('tests/scripts'), counts: nodeCounts },
-  { name: 'rust', command: [node, 'scripts/test-rust.mjs'], counts: cargoCounts },
-  wasmTests,
-  { name: 'build', work: buildPackage, counts: checkCounts },
+  { name: 'types', command: ['tsc', '-p', 'tsconfig.json'], counts: checkCounts },
   script('check-size'),
   script('check-simd'),
-  { name: 'build-reference', work: buildReference, counts: checkCounts },
-  { name: 'build-demo', work: buildDemo, counts: checkCounts },
-  { name: 'types', command: ['tsc', '-p', 'tsconfig.json'], counts: checkCounts },
-  { name: 'node', command: () => nodeTests('tests/node'), counts: nodeCounts },
-  { name: 'packaging', command: () => nodeTests('tests/packaging', '--test-concurrency=1'), counts: nodeCounts },
-  { name: 'browser', command: browserTests, counts: nodeCounts },
+  npm('check:python'),
 ];
+
+/** The rest of `npm run test:all`. */
+const rest = [
+  { name: 'build-reference', work: buildReference, counts: checkCounts },
+  { name: 'packaging', command: () => nodeTests('tests/packaging', '--test-concurrency=1'), counts: nodeCounts },
+  { name: 'browser', command: browserTests('first-half', 'second-half'), counts: nodeCounts },
+  npm('test:research'),
+  npm('check:lighthouse', '--accessibility'),
+  npm('test:interop'),
+  npm('test:python'),
+  npm('test:notebooks'),
+  npm('test:training'),
+  // Prints a message where there is no nightly compiler.
+  npm('fuzz', '--seconds', '10'),
+  // Ratios within one run, against those of an earlier one, with room for three times the noise.
+  npm('bench', '--quick', '--against', 'bench/baseline.json'),
+];
+
+const tiers = { test, check, all: [...new Set([...test, ...check, ...rest])] };
+
+/** The steps that the arguments name: a tier, `--only NAMES`, `--rest` for those that are not in `npm test`. */
+function chosenSteps(args) {
+  const { values, positionals } = parseArgs({
+    args,
+    allowPositionals: true,
+    options: { only: { type: 'string' }, rest: { type: 'boolean' } },
+  });
+  const [tier = 'test'] = positionals;
+  const steps = tiers[tier];
+  if (!steps) throw new Error(`no tier ${tier}; there are ${Object.keys(tiers).join(', ')}`);
+  if (values.only === undefined) return values.rest ? steps.filter((step) => !test.includes(step)) : steps;
+  const names = values.only.split(',');
+  const unknown = names.filter((name) => !tiers.all.some((step) => step.name === name));
+  if (unknown.length > 0) {
+    throw new Error(`no step ${unknown.join(', ')}; there are ${tiers.all.map(({ name }) => name).join(', ')}`);
+  }
+  return tiers.all.filter(({ name }) => names.includes(name));
+}
 
 async function runStep({ command, work, variables, counts }) {
   const started = performance.now();
@@ -122,17 +179,6 @@ async function runStep({ command, work, variables, counts }) {
   // so is one that ran no test at all.
   const silent = counted.failed === 0 && (!result.ok || counted.passed + counted.skipped === 0);
   return { ...counted, failed: silent ? 1 : counted.failed, seconds: (performance.now() - started) / 1000 };
-}
-
-function chosenSteps(args) {
-  const at = args.indexOf('--only');
-  if (at < 0) return steps;
-  const names = (args[at + 1] ?? '').split(',');
-  const unknown = names.filter((name) => !steps.some((step) => step.name === name));
-  if (unknown.length > 0) {
-    throw new Error(`no step ${unknown.join(', ')}; there are ${steps.map(({ name }) => name).join(', ')}`);
-  }
-  return steps.filter(({ name }) => names.includes(name));
 }
 
 await main(async () => {

@@ -38,10 +38,11 @@ export async function parametersWith(page, check) {
 /** Of ten downloads in a second Chromium drops the next without a word. */
 const DOWNLOAD_PAUSE = 110;
 
-/** Clicks what saves a file, and gives its name and bytes. */
-export async function saved(page, selector) {
+/** Clicks what saves a file, a locator or a selector, and gives its name and bytes. */
+export async function saved(page, button) {
   await page.waitForTimeout(DOWNLOAD_PAUSE);
-  const [download] = await Promise.all([page.waitForEvent('download'), page.locator(selector).click()]);
+  const target = typeof button === 'string' ? page.locator(button) : button;
+  const [download] = await Promise.all([page.waitForEvent('download'), target.click()]);
   return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
 }
 
