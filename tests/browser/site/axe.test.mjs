@@ -8,10 +8,16 @@ import { findings } from './axe.mjs';
 
 for (const { name, path, ready } of pages)
   for (const viewport of Object.keys(viewports))
-    for (const scheme of schemes)
-      browserTest(`axe: ${name}, ${viewport}, ${scheme}: no finding`, { path, viewport, scheme }, async ({ page }) => {
-        await page.waitForSelector(ready, patient);
-        for (const summary of await page.locator('details:not([open]) > summary').all())
-          if (await summary.isVisible()) await summary.click();
-        assert.deepEqual(await findings(page), []);
-      });
+    browserTest(`axe: ${name}, ${viewport}: no finding in light and dark`, { path, viewport }, async ({ page }) => {
+      await page.waitForSelector(ready, patient);
+      for (const summary of await page.locator('details:not([open]) > summary').all())
+        if (await summary.isVisible()) await summary.click();
+      for (const scheme of schemes) {
+        await page.emulateMedia({ colorScheme: scheme });
+        await page.waitForFunction(
+          (wanted) => getComputedStyle(document.documentElement).colorScheme.includes(wanted),
+          scheme,
+        );
+        assert.deepEqual(await findings(page), [], scheme);
+      }
+    });

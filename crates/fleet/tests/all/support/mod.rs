@@ -1,0 +1,4 @@
+//! Drives and fleets that tests make.
+
+pub mod drive;
+pub mod fleet;
