@@ -132,8 +132,6 @@ const rest = [
   npm('test:python'),
   npm('test:notebooks'),
   npm('test:training'),
-  // Prints a message where there is no nightly compiler.
-  npm('fuzz', '--seconds', '10'),
   // Ratios within one run, against those of an earlier one, with room for three times the noise.
   npm('bench', '--quick', '--against', 'bench/baseline.json'),
 ];

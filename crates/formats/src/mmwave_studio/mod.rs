@@ -32,7 +32,7 @@ pub fn is_json(text: &[u8]) -> bool {
 /// # Errors
 /// [`FormatError::ConfigField`] for a field that is missing or has a value that is not supported:
 /// advanced frames, phase coding, chirps of several transmitters, and formats that the DCA1000
-/// does not record; [`FormatError::MalformedJson`] for text that is not JSON.
+/// does not record; [`FormatError::Json`] for text that is not JSON.
 pub fn config_text(mmwave: &[u8], setup: Option<&[u8]>) -> Result<String, FormatError> {
     let mut text = String::new();
     if let Some(setup) = setup {

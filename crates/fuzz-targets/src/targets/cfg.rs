@@ -1,9 +1,19 @@
-//! Configurations: whatever is accepted describes a possible radar.
+//! Configurations, and mmWave Studio's JSON, which is translated into one: whatever is accepted describes a possible radar.
 
-use boresight_formats::RadarConfig;
+use boresight_formats::{RadarConfig, mmwave_studio};
 
 /// Checks one input.
 pub fn check(bytes: &[u8]) {
+    if let Ok(text) = mmwave_studio::config_text(bytes, Some(bytes)) {
+        check_text(text.as_bytes());
+    }
+    match mmwave_studio::config_text(bytes, None) {
+        Ok(text) => check_text(text.as_bytes()),
+        Err(_) => check_text(bytes),
+    }
+}
+
+fn check_text(bytes: &[u8]) {
     if let Ok(config) = RadarConfig::parse(bytes) {
         assert!(config.waveform.check().is_ok());
         assert_eq!(config.transmitters.len(), config.waveform.transmitters);
