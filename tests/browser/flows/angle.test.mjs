@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { assertCsv, saved } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { cellOf, numberOf, row } from '../lib/tables.mjs';
+import { typeNumber } from '../lib/type.mjs';
 
 browserTest('flow: angle lab', { path: '#/angle' }, async ({ page }) => {
   for (const method of ['Bartlett (FFT)', 'Capon (MVDR)', 'MUSIC', 'Root-MUSIC']) {
@@ -10,7 +11,7 @@ browserTest('flow: angle lab', { path: '#/angle' }, async ({ page }) => {
     assert.ok(Math.abs(numberOf(await cellOf(page, method, 3)) - 12) < 0.1, method);
   }
   const azimuth = page.getByRole('spinbutton', { name: 'Azimuth of target 1, degrees' });
-  await azimuth.fill('-20');
+  await typeNumber(azimuth, '-20');
   await azimuth.press('Tab');
   await cellOf(page, 'MUSIC', 0, /^−(19\.9|20\.0)/);
 
@@ -33,11 +34,11 @@ browserTest('flow: angle lab', { path: '#/angle' }, async ({ page }) => {
   const sweep = page.getByRole('region', { name: 'Monte Carlo' });
   const runs = sweep.getByRole('spinbutton', { name: 'Runs' });
   const start = sweep.getByRole('button', { name: 'Run' });
-  await runs.fill('5000');
+  await typeNumber(runs, '5000');
   await start.click();
   await sweep.getByRole('button', { name: 'Cancel' }).click();
   await sweep.getByText(/Cancelled/).waitFor();
-  await runs.fill('20');
+  await typeNumber(runs, '20');
   await start.click();
   await sweep
     .getByText(/20 runs/)

@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { browserTest } from '../lib/harness.mjs';
 import { cellOf, numberOf, row } from '../lib/tables.mjs';
+import { typeNumber } from '../lib/type.mjs';
 
 browserTest('flow: bird’s-eye view', { path: '#/birdseye', timeout: 180_000 }, async ({ page }) => {
   const [fft, iaa] = [await cellOf(page, 'Bartlett (FFT)', 0), await cellOf(page, 'IAA', 0)].map(numberOf);
@@ -15,7 +16,7 @@ browserTest('flow: bird’s-eye view', { path: '#/birdseye', timeout: 180_000 },
   await cellOf(page, 'IAA', 4, /^918$/);
   await row(page, 'Left').waitFor({ state: 'detached' });
   const reach = page.getByRole('spinbutton', { name: 'Reach' });
-  await reach.fill('30');
+  await typeNumber(reach, '30');
   await reach.press('Tab');
   await image.getByText(/\b(3\d|4\d) m ahead/).waitFor({ timeout: 60_000 });
 });

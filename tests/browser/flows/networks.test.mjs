@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { browserTest } from '../lib/harness.mjs';
 import { cellOf, numberOf } from '../lib/tables.mjs';
+import { typeNumber } from '../lib/type.mjs';
 
 browserTest('flow: networks', { path: '#/networks?model=learned-pursuit', timeout: 180_000 }, async ({ page }) => {
   await page.getByRole('button', { name: 'Run on this scene' }).first().click();
@@ -12,7 +13,7 @@ browserTest('flow: networks', { path: '#/networks?model=learned-pursuit', timeou
   assert.ok((await found('Learned pursuit, form small', 3)) < 2 * (await found('IAA', 3)), 'RMSE');
   assert.ok((await found('Bartlett (FFT)', 2)) > 0, 'false targets of the FFT');
   const targets = page.getByRole('spinbutton', { name: 'Targets' });
-  await targets.fill('2');
+  await typeNumber(targets, '2');
   await targets.press('Tab');
   await cellOf(attempt, 'Truth', 0, /^2$/);
 });
