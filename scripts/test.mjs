@@ -51,14 +51,13 @@ function nodeTests(folder, ...options) {
   return [node, '--test', '--test-reporter=spec', ...options, ...files];
 }
 
-/** Tests of pages, by two processes that each keep one browser. */
-const browserTests = (...names) => [
-  node,
-  '--test',
-  '--test-reporter=spec',
-  '--test-concurrency=2',
-  ...names.map((name) => `tests/browser/${name}.mjs`),
-];
+/** All tests of pages but the flows, which `npm test` runs. BROWSER_SHARD=1/3 takes a third of the files. */
+function browserTests() {
+  const [program, ...args] = nodeTests('tests/browser', '--test-concurrency=2');
+  const shard = process.env.BROWSER_SHARD ? [`--test-shard=${process.env.BROWSER_SHARD}`] : [];
+  return [program, ...shard, ...args.filter((argument) => !argument.includes('/flows/'))];
+}
+
 const npm = (name, ...args) => ({
   name,
   command: [
@@ -125,7 +124,7 @@ const check = [
 const rest = [
   { name: 'build-reference', work: buildReference, counts: checkCounts },
   { name: 'packaging', command: () => nodeTests('tests/packaging', '--test-concurrency=1'), counts: nodeCounts },
-  { name: 'browser', command: browserTests('first-half', 'second-half'), counts: nodeCounts },
+  { name: 'browser', command: browserTests, counts: nodeCounts },
   npm('test:research'),
   npm('check:lighthouse', '--accessibility'),
   npm('test:interop'),

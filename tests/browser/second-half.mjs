@@ -1,3 +1,0 @@
-import { together } from './lib/together.mjs';
-
-await together(1);
