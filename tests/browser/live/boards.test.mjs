@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { before } from 'node:test';
 import { init, parseConfig } from 'boresight';
 import { cascadeFiles, configOf, framesOf, ROW } from '../../lib/boards.mjs';
-import { drop, recording } from '../lib/demo.mjs';
+import { drop, parametersWith, recording } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 
 const path = '#/capture';
@@ -46,7 +46,7 @@ browserTest('boards: a wrong order of I and Q, or of lanes, is told and mended',
     await page.waitForSelector(`[data-doubt="${doubt}"]`, { state: 'detached' });
     await ready(page);
     assert.deepEqual(await detections(page), right);
-    assert.match(page.url(), new RegExp(`${control}=${choice}`));
+    await parametersWith(page, (parameters) => parameters.get(control) === choice);
     await page.locator(`select[name="${control}"]`).selectOption('configured');
     await page.waitForSelector(`[data-doubt="${doubt}"]`);
   }
