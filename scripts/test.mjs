@@ -1,7 +1,7 @@
 // Sets up, builds and tests in three tiers: `npm test` (what a change needs), `npm run check` (lints, docs, licences, sizes) and
 // `npm run test:all` (both and everything else). `-- --only rust,node` runs some steps, `-- --rest` leaves out those of
 // `npm test`; names are in the closing table. Where CI=true, a skipped test is a failure.
-import { mkdirSync, readdirSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import {
@@ -21,6 +21,7 @@ import { cargoCounts, checkCounts, nodeCounts, summary } from './lib/summary.mjs
 import { setup } from './setup.mjs';
 
 const node = process.execPath;
+const { scripts } = JSON.parse(readFileSync(join(root, 'package.json'), 'utf8'));
 // A step that hangs is ended and has failed.
 const longestStepMs = 30 * 60_000;
 const clippy = (...args) => ['cargo', 'clippy', '--quiet', ...args, '--', '-D', 'warnings'];
@@ -58,15 +59,10 @@ function browserTests() {
   return [program, ...shard, ...args.filter((argument) => !argument.includes('/flows/'))];
 }
 
+/** A script of package.json, all of which Node runs; its arguments follow. */
 const npm = (name, ...args) => ({
   name,
-  command: [
-    process.platform === 'win32' ? 'npm.cmd' : 'npm',
-    'run',
-    '--silent',
-    name,
-    ...(args.length ? ['--', ...args] : []),
-  ],
+  command: [...scripts[name].split(' ').with(0, node), ...args],
   counts: checkCounts,
 });
 
