@@ -107,11 +107,20 @@ browserTest('parts: files of several recordings are refused by name', { path }, 
   const one = (name) => ({ name, bytes: parts[0] });
   assert.match(
     await refused(page, [one('left_0.bin'), one('right_1.bin'), cfg]),
-    /right_1\.bin.*differs from left_0\.bin/s,
+    /^right_1\.bin: expected a name that differs from left_0\.bin/,
   );
-  assert.match(await refused(page, [one('drive.bin'), one('walk.bin')]), /differs from walk\.bin in its number/);
-  assert.match(await refused(page, [one('raw_1.bin'), one('raw_01.bin')]), /one file of each number/);
-  assert.match(await refused(page, [one('day_20261124.bin'), one('day_20261125.bin')]), /would be missing/);
+  assert.match(
+    await refused(page, [one('drive.bin'), one('walk.bin')]),
+    /^drive\.bin: expected a name that differs from walk\.bin in its number/,
+  );
+  assert.match(
+    await refused(page, [one('raw_1.bin'), one('raw_01.bin')]),
+    /^raw_01\.bin: expected one file of each number/,
+  );
+  assert.match(
+    await refused(page, [one('day_20261124.bin'), one('day_20261125.bin')]),
+    /^day_20261124\.bin: expected files of one recording, of which \d+ would be missing/,
+  );
   assert.match(
     await refused(page, [one('raw_7.bin'), cfg, { ...cfg, name: 'other.cfg' }], 'ambiguous'),
     /one configuration \(\.cfg or \.mmwave\.json\)/,

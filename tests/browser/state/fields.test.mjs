@@ -5,7 +5,7 @@ import { browserTest } from '../lib/harness.mjs';
 import { pages } from '../lib/pages.mjs';
 import { leave, typeNumber } from '../lib/type.mjs';
 
-/** The first that fits a field is typed into it. */
+/** The first two that fit a field are typed into it. */
 const TEXTS = ['-7.25', '0.5', '-0.05', '1.5', '12', '7', '100', '1024'];
 
 /** Pages in states that show all their fields, with one quick method: the typing is work enough. */
@@ -57,24 +57,24 @@ async function tryField(field) {
   }));
   const before = await field.inputValue();
   const fits = (text) => Number(text) >= min && Number(text) <= max && (!integer || Number.isInteger(Number(text)));
-  const valid = TEXTS.find(fits);
-  assert.ok(valid, `${name} from ${min} to ${max} can be tried`);
-  await typeNumber(field, valid);
-  const typed = await stateOf(field);
-  assert.ok(
-    Math.abs(typed.now - Number(valid)) < 1e-9 && typed.invalid === null,
-    `${valid} counts in ${name}, not ${typed.now}`,
-  );
+  const valid = TEXTS.filter(fits).slice(0, 2);
+  assert.ok(valid.length > 0, `${name} from ${min} to ${max} can be tried`);
+  for (const text of valid) {
+    await typeNumber(field, text);
+    const { now, invalid } = await stateOf(field);
+    assert.ok(Math.abs(now - Number(text)) < 1e-9 && invalid === null, `${text} counts in ${name}, not ${now}`);
+  }
   await leave(field);
   const { now: value } = await stateOf(field);
-  const wrong = Number.isFinite(max) ? `${max}1` : '1,5';
-  await typeNumber(field, wrong);
-  await leave(field);
-  const refused = await stateOf(field);
-  assert.equal(await field.inputValue(), wrong, `${name} keeps what is wrong as it was typed`);
-  assert.equal(refused.invalid, 'true', `${wrong} in ${name}`);
-  assert.match(refused.reason, /^A (whole )?number (from|above) /, `${name} says why`);
-  assert.equal(refused.now, value, `the beginning of ${wrong} does not count in ${name}`);
+  for (const text of [Number.isFinite(max) ? `${max}1` : '-1', '1,5']) {
+    await typeNumber(field, text);
+    await leave(field);
+    const state = await stateOf(field);
+    assert.equal(await field.inputValue(), text, `${name} keeps what is wrong as it was typed`);
+    assert.equal(state.invalid, 'true', `${text} in ${name}`);
+    assert.match(state.reason, /^A (whole )?number (from|above) /, `${name} says why`);
+    assert.equal(state.now, value, `the beginning of ${text} does not count in ${name}`);
+  }
   await typeNumber(field, '');
   if (before === '') return;
   await typeNumber(field, before);

@@ -159,12 +159,11 @@ fn what_is_wanted_no_more_is_passed_over_and_counted() {
 
 #[test]
 fn a_cut_file_is_read_as_far_as_it_goes() {
-    for (first, compression) in COMPRESSIONS.into_iter().enumerate() {
+    for compression in COMPRESSIONS {
         let bytes = recording(compression);
         let whole = read(&bytes).0;
         let mut before = 0;
-        // Other places of each file, which has the same records.
-        for end in (MAGIC.len() + first..bytes.len()).step_by(5) {
+        for end in MAGIC.len()..bytes.len() {
             let (seen, counts) = read_in(&bytes[..end], 333).unwrap();
             assert_eq!(seen.messages, whole.messages[..seen.messages.len()]);
             assert!(seen.messages.len() >= before, "{compression} {end}");

@@ -369,7 +369,10 @@ function inOrder(samples: readonly File[]): Parts {
     const { order, ...rest } = api.recordingParts(samples.map(({ name }) => name));
     return { files: order.map((at) => samples[at] as File), ...rest };
   } catch (error) {
-    return failBecauseOf(samples[0] as File)(error);
+    if (!(error instanceof api.BoresightError)) throw error;
+    // What was given is the name of the file that does not fit.
+    const { given, expected } = error.details;
+    throw new FileProblem(error.code, given ?? '', `expected ${expected}`);
   }
 }
 
