@@ -17,7 +17,7 @@ import {
 import { browserMissing, findBrowser } from './lib/browser.mjs';
 import { environment, root } from './lib/paths.mjs';
 import { main, runTee } from './lib/run.mjs';
-import { cargoCounts, checkCounts, nodeCounts, summary } from './lib/summary.mjs';
+import { cargoCounts, checkCounts, nodeCounts, passedOnRetry, summary } from './lib/summary.mjs';
 import { setup } from './setup.mjs';
 
 const node = process.execPath;
@@ -171,7 +171,12 @@ async function runStep({ command, work, variables, counts }) {
   // A step that fails without a failed test (it did not compile, it was ended) is a failure too;
   // so is one that ran no test at all.
   const silent = counted.failed === 0 && (!result.ok || counted.passed + counted.skipped === 0);
-  return { ...counted, failed: silent ? 1 : counted.failed, seconds: (performance.now() - started) / 1000 };
+  return {
+    ...counted,
+    failed: silent ? 1 : counted.failed,
+    seconds: (performance.now() - started) / 1000,
+    retried: passedOnRetry(result.text),
+  };
 }
 
 await main(async () => {
@@ -185,6 +190,7 @@ await main(async () => {
   }
   const total = (key) => results.reduce((sum, result) => sum + result[key], 0);
   if (!findBrowser()) console.log(`\nBrowser tests did not run: ${browserMissing}`);
+  for (const name of results.flatMap(({ retried }) => retried)) console.log(`\nPassed only on the second try: ${name}`);
   console.log(`\n${summary(results)}`);
   if (total('failed') > 0 || (inCi && total('skipped') > 0)) process.exitCode = 1;
 });

@@ -26,6 +26,10 @@ export function nodeCounts(text) {
   };
 }
 
+/** Names of the page tests that failed once and passed on the second try, which only happens under CI. */
+export const passedOnRetry = (text) =>
+  [...stripVTControlCharacters(text).matchAll(/^passed on retry: (.+)$/gm)].map(([, name]) => name);
+
 /** A step that is one check: it passed or it failed. */
 export const checkCounts = (_text, ok) => ({ passed: ok ? 1 : 0, failed: ok ? 0 : 1, skipped: 0 });
 

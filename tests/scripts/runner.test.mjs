@@ -6,7 +6,7 @@ import { findBrowser } from '../../scripts/lib/browser.mjs';
 import { digest, filesUnder, upToDate, whenChanged } from '../../scripts/lib/build/stamp.mjs';
 import { root } from '../../scripts/lib/paths.mjs';
 import { runKeeping } from '../../scripts/lib/run.mjs';
-import { cargoCounts, nodeCounts, summary } from '../../scripts/lib/summary.mjs';
+import { cargoCounts, nodeCounts, passedOnRetry, summary } from '../../scripts/lib/summary.mjs';
 
 const folder = mkdtempSync(join(root, 'tests', '.stamp-'));
 const inside = (name) => relative(root, join(folder, name));
@@ -104,4 +104,9 @@ test('work is done when inputs change or outputs are gone, and else not', async 
     whenChanged('runner-test-empty', { ...paths, outputs: [inside('never')] }, () => {}),
     /did not make .*never/,
   );
+});
+
+test('page tests that pass only on the second try are named', () => {
+  const text = '✔ one (3 ms)\npassed on retry: space: frames play\n  passed on retry: quoted\nℹ pass 2\n';
+  assert.deepEqual(passedOnRetry(text), ['space: frames play']);
 });

@@ -29,14 +29,20 @@ const colours = ({ page, bytes }) =>
     return { saturated, corner, width: image.width, height: image.height };
   }, bytes.toString('base64'));
 const picture = (page) => page.locator(host).screenshot();
-/** Waits until the view looks as given. */
-async function looks(page, expected) {
-  for (let tries = 0; tries < 50; tries++) {
-    if ((await picture(page)).equals(expected)) return;
-    await page.waitForTimeout(100);
+/** Waits until the picture of the view is as `accepts` wants it, and gives it. */
+async function drawn(page, accepts, message) {
+  for (let tries = 0; tries < 100; tries++) {
+    const now = await picture(page);
+    if (accepts(now)) return now;
+    // Two frames of the page, in which it may draw.
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   }
-  assert.fail('the view does not show what it showed');
+  return assert.fail(message);
 }
+const looks = (page, expected, message = 'the view does not show what it showed') =>
+  drawn(page, (now) => now.equals(expected), message);
+const changes = (page, before, message = 'the view has not changed') =>
+  drawn(page, (now) => !now.equals(before), message);
 /** Where the view draws its largest chosen ring would need its own eyes: the middle of what the pointer finds is a point. */
 async function findPoint(page) {
   const box = await page.locator(host).boundingBox();
@@ -87,18 +93,13 @@ browserTest('space: it turns, zooms, chooses and is reset by keys', { path: SIMU
   await page.locator(host).focus();
   const first = await picture(page);
   await page.keyboard.press('ArrowLeft');
-  await page.waitForTimeout(80);
-  const turned = await picture(page);
-  assert.ok(!turned.equals(first), 'an arrow turns it');
+  await changes(page, first, 'an arrow turns it');
   await page.keyboard.press('ArrowRight');
-  await page.waitForTimeout(80);
-  assert.ok((await picture(page)).equals(first), 'and the other turns it back');
+  await looks(page, first, 'and the other turns it back');
   for (const key of ['Shift+ArrowUp', '+', '+', '-']) await page.keyboard.press(key);
-  await page.waitForTimeout(80);
-  assert.ok(!(await picture(page)).equals(first));
+  await changes(page, first);
   await page.keyboard.press('Home');
-  await page.waitForTimeout(80);
-  assert.ok((await picture(page)).equals(first), 'Home shows everything again');
+  await looks(page, first, 'Home shows everything again');
   // The nearest comes first; the table and the address follow.
   await page.keyboard.press('Escape');
   await page.keyboard.press('n');
@@ -132,8 +133,7 @@ browserTest(
     await parametersWith(page, (params) => params.get('cell') !== cell);
     await page.mouse.move(1, 1);
     await page.locator(host).scrollIntoViewIfNeeded();
-    await page.waitForTimeout(80);
-    assert.ok(!(await picture(page)).equals(before), 'what the table chooses has the ring');
+    await changes(page, before, 'what the table chooses has the ring');
     // A drag turns and chooses nothing.
     const now = parameters(page).get('cell');
     const box = await page.locator(host).boundingBox();
@@ -142,8 +142,7 @@ browserTest(
     await page.mouse.down();
     await page.mouse.move(box.x + box.width / 2 + 120, box.y + box.height / 2 + 20, { steps: 6 });
     await page.mouse.up();
-    await page.waitForTimeout(80);
-    assert.ok(!(await picture(page)).equals(still), 'a drag turns it');
+    await changes(page, still, 'a drag turns it');
     assert.equal(parameters(page).get('cell'), now);
   },
 );
@@ -169,20 +168,16 @@ for (const scheme of ['light', 'dark']) {
 browserTest('space: frames play in it', { path: SIMULATED }, async ({ page }) => {
   await ready(page);
   const first = await picture(page);
-  await page.locator('[data-action="play"]').click();
+  const frames = page.getByRole('region', { name: 'Frames' });
+  await frames.getByRole('button', { name: 'Play' }).click();
   await parametersWith(page, (params) => Number(params.get('frame')) > 1);
-  await page.locator('[data-action="play"]').click();
+  await frames.getByRole('button', { name: 'Pause' }).click();
+  // It may have come to stand on the first frame again: on to the last.
+  await frames.getByRole('slider', { name: 'Frame' }).focus();
+  await page.keyboard.press('End');
   const head = page.locator('[data-space="points"] .panel-head');
-  // Where it came to stand on the first frame again, on to another.
-  for (let i = 0; i < 20 && (await head.innerText()).includes('Frame 1 of'); i++) {
-    await page.locator('[data-action="play"]').click();
-    await page.waitForTimeout(150);
-    await page.locator('[data-action="play"]').click();
-    await page.waitForTimeout(300);
-  }
-  assert.doesNotMatch(await head.innerText(), /Frame 1 of/);
-  await page.waitForTimeout(100);
-  assert.ok(!(await picture(page)).equals(first), 'points move');
+  await head.filter({ hasNotText: 'Frame 1 of' }).waitFor();
+  await changes(page, first, 'points move');
   assert.equal(await page.locator('[data-space="points"]').getAttribute('data-state'), 'ready');
 });
 
@@ -204,8 +199,7 @@ browserTest(
     await touch('touchStart', 100);
     for (let x = 110; x <= 220; x += 10) await touch('touchMove', x);
     await touch('touchEnd', 220);
-    await page.waitForTimeout(80);
-    assert.ok(!(await picture(page)).equals(before));
+    await changes(page, before);
     const at = await findPoint(page);
     await page.touchscreen.tap(at.x, at.y);
     await parametersWith(page, (params) => params.has('cell'));

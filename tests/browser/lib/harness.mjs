@@ -28,26 +28,41 @@ after(async () => {
 /**
  * A test on a page of the demo. Options: `path`, `viewport` (`desktop`, `phone`), `scheme`
  * (`light`, `dark`), `before` (a script ahead of the page's own), `sockets` (addresses it may connect to), `served` (gives another site than the built demo), `timeout` (ms), and any of Playwright's context
- * options. On failure the page is pictured in tests/.output/screenshots.
+ * options. On failure the page is pictured in tests/.output/screenshots. Under CI a test that fails is tried once more, in a
+ * fresh page; one that passes then is named in the closing lines of the run (`passedOnRetry` of scripts/lib/summary.mjs).
  */
 export function browserTest(name, { served, timeout = 90_000, ...options }, body) {
-  test(name, { skip: skipWithoutBrowser, timeout }, async (context) => {
-    const [browser, demo] = await site();
-    const server = served ? await served() : demo;
-    const view = await openPage(browser, server.url, options);
-    try {
-      await body({ ...view, url: server.url, browser, test: context });
-      assert.deepEqual(view.problems, [], 'the page reported no problem');
-    } catch (error) {
-      const file = await view.screenshot(`failed-${name.replaceAll(/\W+/g, '-')}`).catch(() => null);
-      const reports = [
-        view.problems.length > 0 && `The page reported: ${view.problems.join('; ')}`,
-        file && `Picture: ${file}`,
-      ];
-      console.error(reports.filter(Boolean).join('\n'));
-      throw error;
-    } finally {
-      await view.close();
+  const attempts = process.env.CI ? 2 : 1;
+  test(name, { skip: skipWithoutBrowser, timeout: attempts * timeout }, async (context) => {
+    for (let attempt = 1; ; attempt++) {
+      try {
+        await runOnPage(name, served, options, body, context);
+        if (attempt > 1) console.error(`passed on retry: ${name}`);
+        return;
+      } catch (error) {
+        if (attempt === attempts) throw error;
+        console.error(error);
+      }
     }
   });
+}
+
+async function runOnPage(name, served, options, body, context) {
+  const [browser, demo] = await site();
+  const server = served ? await served() : demo;
+  const view = await openPage(browser, server.url, options);
+  try {
+    await body({ ...view, url: server.url, browser, test: context });
+    assert.deepEqual(view.problems, [], 'the page reported no problem');
+  } catch (error) {
+    const file = await view.screenshot(`failed-${name.replaceAll(/\W+/g, '-')}`).catch(() => null);
+    const reports = [
+      view.problems.length > 0 && `The page reported: ${view.problems.join('; ')}`,
+      file && `Picture: ${file}`,
+    ];
+    console.error(reports.filter(Boolean).join('\n'));
+    throw error;
+  } finally {
+    await view.close();
+  }
 }
