@@ -5,22 +5,22 @@ import { browserTest } from '../lib/harness.mjs';
 import { patient } from '../lib/trial.mjs';
 import { leave, typeNumber } from '../lib/type.mjs';
 import { findings } from '../site/axe.mjs';
+import { button, cancelOf, choose, combobox, opened, plotOf, ready, region, spinbutton } from './page.mjs';
 
 const path = '#/capture';
-const PANEL = '[data-panel="array-calibration"]';
+const panel = (page) => region(page, 'Array calibration');
 /** What the board itself reported at 2.95 m. */
 const BOARD_DEG = -10.8;
 
-const ready = (page) =>
-  page.waitForSelector('[aria-busy="false"] [data-table="detections"] [data-field="rangeM"][data-value]', patient);
 const effect = (page) => page.locator('[data-in-effect]').innerText();
-const effected = (page, text) =>
-  page.waitForFunction((wanted) => document.querySelector('[data-in-effect]')?.textContent.includes(wanted), text);
-const button = (page, action) => page.locator(`${PANEL} [data-action="${action}"]`);
+const effected = (page, text) => page.locator('[data-in-effect]', { hasText: text }).waitFor();
+const press = (page, name) => button(panel(page), name).click();
+const calibration = (page) => combobox(page, 'Array calibration');
+const reflectors = (page) => page.locator('[data-reflector]');
 /** Once the cell is seen both ways under the present calibration. */
 const compared = (page) =>
   page.waitForSelector('[data-before-after][aria-busy="false"] [data-row="others-after"] [data-value]', patient);
-const alertOf = (page) => page.locator('[role="alert"][data-error]').first();
+const alertOf = (page) => page.getByRole('alert').first();
 
 /** A row of the cell before and after. */
 async function row(page, name) {
@@ -40,16 +40,13 @@ async function chooseTarget(page) {
   );
   const index = ranges.findIndex((range) => Math.abs(range - 2.95) < 0.05);
   assert.ok(index >= 0, `a target at 2.95 m among ${ranges}`);
-  const chosen = rows.nth(index).locator('button');
+  const chosen = rows.nth(index).getByRole('button');
   await chosen.focus();
   await page.keyboard.press('Enter');
   await parametersWith(page, (params) => params.get('cell'));
 }
 
-async function chooseFile(page, name, content) {
-  const [chooser] = await Promise.all([page.waitForEvent('filechooser'), button(page, 'open-calibration').click()]);
-  await chooser.setFiles({ name, mimeType: 'application/octet-stream', buffer: Buffer.from(content) });
-}
+const chooseFile = (page, name, bytes) => choose(page, button(panel(page), 'Open calibration'), [{ name, bytes }]);
 
 browserTest(
   'array calibration: from even frames, the odd ones have one target where the board saw it',
@@ -59,7 +56,7 @@ browserTest(
     assert.match(await effect(page), /none: the configuration has none/);
     await chooseTarget(page);
     // By the keyboard alone.
-    await button(page, 'self-calibrate').focus();
+    await button(panel(page), 'Self-calibrate').focus();
     await page.keyboard.press('Enter');
     await compared(page);
     assert.match(await effect(page), /xwr16xx_crw_dca_module_2018_1015v2\.calibration\.json/);
@@ -85,7 +82,7 @@ browserTest(
     const [phaseBefore, phaseAfter] = await values(page, '[data-row="residualPhaseDeg"] [data-value]');
     assert.ok(phaseAfter < phaseBefore, `phase left on frames not used: ${phaseBefore} to ${phaseAfter} degrees`);
     // The detections are calibrated, too, and without it they are as before.
-    await page.locator('select[name="calibration"]').selectOption('none');
+    await calibration(page).selectOption('none');
     await effected(page, 'none, by choice');
     await parametersWith(page, (params) => params.get('calibration') === 'none');
     assert.equal(await page.locator('[data-before-after]').count(), 0);
@@ -98,26 +95,26 @@ browserTest(
   async ({ page }) => {
     await ready(page);
     await chooseTarget(page);
-    await button(page, 'add-reflector').click();
-    const azimuth = page.locator('[name="reflector-azimuth-0"]');
-    await page.waitForFunction(() => document.activeElement?.getAttribute('name') === 'reflector-azimuth-0');
+    await press(page, 'Add the chosen cell as a reflector');
+    const azimuth = page.getByRole('spinbutton', { name: 'Azimuth of reflector 1' });
+    await azimuth.and(page.locator(':focus')).waitFor();
     await typeNumber(azimuth, '-10.8');
     await leave(azimuth);
     // Another cell by a click on the map.
-    const plot = page
-      .locator('[data-plot="range-doppler"] .plot .u-over, [data-plot="range-doppler"] .plot canvas')
-      .first();
+    const plot = plotOf(page, 'Range-Doppler map').locator('.u-over');
     await plot.scrollIntoViewIfNeeded();
     const box = await plot.boundingBox();
     const cell = parameters(page).get('cell');
     await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
     await parametersWith(page, (params) => params.get('cell') !== cell);
-    await button(page, 'add-reflector').click();
-    assert.equal(await page.locator('[data-reflector]').count(), 2);
-    await page.getByRole('button', { name: 'Remove reflector 2' }).click();
-    assert.equal(await page.locator('[data-reflector]').count(), 1);
+    await press(page, 'Add the chosen cell as a reflector');
+    await reflectors(page).nth(1).waitFor();
+    assert.equal(await reflectors(page).count(), 2);
+    await press(page, 'Remove reflector 2');
+    await reflectors(page).nth(1).waitFor({ state: 'detached' });
+    assert.equal(await reflectors(page).count(), 1);
     await parametersWith(page, (params) => /^2\.9\d*:-10\.8:0$/.test(params.get('reflectors') ?? ''));
-    await button(page, 'calibrate-reflectors').click();
+    await press(page, 'Calibrate by reflectors');
     await chooseTarget(page);
     await compared(page);
     assert.match(await page.locator('[data-facts="array-calibration"]').innerText(), /known angles/);
@@ -130,10 +127,10 @@ browserTest(
     // The direction is the one that was typed.
     assert.ok(Math.abs(after.azimuths[0] - BOARD_DEG) < 0.5, `at ${after.azimuths[0]} degrees`);
     // A reflector where nothing is.
-    const range = page.locator('[name="reflector-range-0"]');
+    const range = page.getByRole('spinbutton', { name: 'Range of reflector 1' });
     await typeNumber(range, '11.5');
     await leave(range);
-    await button(page, 'calibrate-reflectors').click();
+    await press(page, 'Calibrate by reflectors');
     await alertOf(page).waitFor();
     assert.match(await alertOf(page).innerText(), /reflector/);
   },
@@ -144,13 +141,13 @@ browserTest(
   { path },
   async ({ page }) => {
     await ready(page);
-    await button(page, 'self-calibrate').click();
+    await press(page, 'Self-calibrate');
     await compared(page);
     const rows = () => values(page, '[data-channel] [data-field][data-value]');
     const wanted = await rows();
-    const json = await saved(page, `${PANEL} [data-export="json"]`);
-    const line = await saved(page, `${PANEL} [data-export="line"]`);
-    const session = await saved(page, '[data-action="save-session"]');
+    const json = await saved(page, button(panel(page), 'JSON'));
+    const line = await saved(page, button(panel(page), 'TI line'));
+    const session = await saved(page, button(page, 'Save session'));
     assert.match(json.name, /^boresight-array-.*\.calibration\.json$/);
     assert.match(line.bytes.toString(), /^compRangeBiasAndRxChanPhase 0( -?[\d.]+){16}\s*$/);
     await parametersWith(page, (params) => /^own:[0-9a-f]{8}$/.test(params.get('calibration')));
@@ -176,7 +173,7 @@ browserTest(
       assert.ok(Math.abs(rounded[i] - expected) < 0.01, `${rounded[i]} for ${expected}`);
     });
     await drop(page, [{ name: session.name, bytes: session.bytes }]);
-    await page.locator('[data-action="replace"]').click();
+    await button(page.getByRole('dialog'), 'Open the session').click();
     await effected(page, 'xwr16xx');
     await parametersWith(page, (params) => params.get('calibration') === id);
     assert.deepEqual(await rows(), wanted);
@@ -231,8 +228,8 @@ browserTest(
       { name: 'mine.bin', bytes: recording('xwr16xx_crw_dca_module_2018_1015v2.bin') },
       { name: 'mine.cfg', bytes: Buffer.from(`${cfg}\ncompRangeBiasAndRxChanPhase 0.05 ${line.join(' ')}\n`) },
     ]);
-    await page.waitForFunction(() => document.querySelector('.files')?.textContent.includes('mine.cfg'));
-    await page.locator('select[name="calibration"]').selectOption('configured');
+    await opened(page, 'mine.cfg');
+    await calibration(page).selectOption('configured');
     await effected(page, 'of the configuration');
     await page.waitForFunction(() =>
       /Range bias\s*0\.050 m/.test(document.querySelector('[data-facts="array-calibration"]')?.innerText),
@@ -262,22 +259,19 @@ browserTest('array calibration: what cannot be used is refused, and says what he
     ['none.txt', 'sensorStart\n', /it has no line compRangeBiasAndRxChanPhase/],
   ]) {
     await chooseFile(page, name, content);
-    await page
-      .waitForFunction(
-        (wanted) => document.querySelector('[role="alert"][data-error]')?.textContent.includes(wanted),
-        name,
-        { timeout: 10_000 },
-      )
-      .catch(async () => assert.fail(`${name}: ${await page.locator('[role="alert"]').allInnerTexts()}`));
+    await alertOf(page)
+      .filter({ hasText: name })
+      .waitFor({ timeout: 10_000 })
+      .catch(async () => assert.fail(`${name}: ${await page.getByRole('alert').allInnerTexts()}`));
     assert.match(await alertOf(page).innerText(), says);
     assert.match(await effect(page), /none: the configuration has none/, `${name} changes nothing`);
   }
   // No cell is strong enough.
-  const least = page.locator('[name="calibrationSnr"]');
+  const least = spinbutton(page, 'Least SNR');
   await typeNumber(least, '120');
   await leave(least);
-  await button(page, 'self-calibrate').click();
-  const alert = page.locator(`${PANEL} [role="alert"]`);
+  await press(page, 'Self-calibrate');
+  const alert = panel(page).getByRole('alert');
   await alert.waitFor(patient);
   assert.match(await alert.innerText(), /Lower “Least SNR”/);
 });
@@ -289,14 +283,14 @@ browserTest('array calibration: ends when it is cancelled, and goes on when aske
     { name: 'long.bin', bytes: bin, times: 24 },
     { name: 'long.cfg', bytes: recording('profile.cfg') },
   ]);
-  await page.waitForFunction(() => document.querySelector('.files')?.textContent.includes('long.bin'));
+  await opened(page, 'long.bin');
   await ready(page);
-  const cancelled = clickWhenThere(page, `${PANEL} [data-action="cancel-calibration"]`);
-  await button(page, 'self-calibrate').click();
+  const cancelled = clickWhenThere(page, cancelOf('Calibrating the array'));
+  await press(page, 'Self-calibrate');
   await cancelled;
-  await page.waitForSelector(`${PANEL} [data-cancelled]`);
+  await panel(page).locator('[data-cancelled]').waitFor();
   assert.match(await effect(page), /none: the configuration has none/);
-  await button(page, 'resume-calibration').click();
+  await press(page, 'Calibrate again');
   await effected(page, 'long.calibration.json');
 });
 
@@ -306,9 +300,9 @@ for (const scheme of ['light', 'dark'])
     { path: `${path}?reflectors=2.95:-10.8:0`, viewport: 'phone', scheme },
     async ({ page }) => {
       await ready(page);
-      await button(page, 'self-calibrate').click();
+      await press(page, 'Self-calibrate');
       await compared(page);
-      await page.locator('[data-cells] > summary').click();
+      await panel(page).getByText('Cells it was made from, and those left out').click();
       assert.deepEqual(await findings(page), []);
       const { scroll, width } = await page.evaluate(() => ({
         scroll: document.documentElement.scrollWidth,

@@ -12,12 +12,29 @@ import {
   values,
 } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
+import {
+  button,
+  cancelOf,
+  captionOf,
+  cells,
+  checkbox,
+  choose,
+  chosenRow,
+  combobox,
+  figure,
+  frameSays,
+  frameSlider,
+  frames,
+  opened,
+  plotOf,
+  progress,
+  ready,
+  region,
+} from './page.mjs';
 
 const path = '#/capture';
 const bin = recording('xwr16xx_crw_dca_module_2018_1015v2.bin');
 const cfg = recording('profile.cfg');
-const ready = (page) =>
-  page.waitForSelector('[aria-busy="false"] [data-table="detections"] [data-field="rangeM"][data-value]');
 const cellReady = (page) => page.waitForSelector('[data-row="bartlett"] [data-field="azimuth"][data-value]');
 
 /** Rows of the table of detections as objects. */
@@ -63,12 +80,12 @@ browserTest(
 
 browserTest('capture: every frame alone shows the near target too', { path: '#/capture?frame=3' }, async ({ page }) => {
   await ready(page);
-  assert.match(await page.locator('output').first().innerText(), /frame 4 of 8/);
+  await frameSays(page, 'frame 4 of 8');
   const near = at(await detections(page), 2.95);
   assert.ok(near && Math.abs(near.azimuthDeg + 10.8) <= 1.5, JSON.stringify(near));
-  await page.locator('input[name="frame"]').press('ArrowRight');
+  await frameSlider(page).press('ArrowRight');
   await parametersWith(page, (params) => params.get('frame') === '4');
-  await page.waitForFunction(() => /frame 5 of 8/.test(document.querySelector('output').textContent));
+  await frameSays(page, 'frame 5 of 8');
 });
 
 browserTest(
@@ -77,23 +94,19 @@ browserTest(
   async ({ page }) => {
     await ready(page);
     await cellReady(page);
-    const title = () => page.locator('[data-plot="cell-spectrum"] .detail').innerText();
-    assert.match(await title(), /2\.95 m/);
-    const map = page.locator('[data-plot="range-doppler"] .plot');
-    await map.focus();
+    const near = figure(page, 'Angle spectrum').locator('.detail', { hasText: '2.95 m' });
+    await near.waitFor();
+    await plotOf(page, 'Range-Doppler map').focus();
     await page.keyboard.press('n');
     await parametersWith(page, (params) => params.has('cell'));
     const chosen = parameters(page).get('cell');
     await page.keyboard.press('ArrowRight');
-    await page.waitForFunction(
-      (before) => new URLSearchParams(location.hash.split('?')[1]).get('cell') !== before,
-      chosen,
-    );
+    await parametersWith(page, (params) => params.get('cell') !== chosen);
     const [range, doppler] = chosen.split(':').map(Number);
     assert.equal(parameters(page).get('cell'), `${range + 1}:${doppler}`);
     await page.keyboard.press('Home');
     await parametersWith(page, (params) => !params.has('cell'));
-    assert.match(await title(), /2\.95 m/);
+    await near.waitFor();
   },
 );
 
@@ -105,21 +118,21 @@ browserTest(
     const why = (verdict) => page.waitForSelector(`[data-cell-verdict="${verdict}"]`);
     const text = async (verdict) => (await why(verdict)).innerText();
     assert.match(await text('kept'), /2\.95 m.*A detection: [\d.]+ dB over its threshold; noise -[\d.]+ dBFS by \d+/s);
-    const plot = '[data-plot="range-profile"]';
+    const plot = figure(page, 'Range profile');
     const figures = assertCsv(
-      await saved(page, `${plot} [data-export="csv"]`),
+      await saved(page, button(plot, 'CSV')),
       'range_m,power_dbfs,bin_power_dbfs,bin_threshold_dbfs',
     );
     const row = figures.find(([range]) => Math.abs(Number(range) - 2.95) < 0.03);
     assert.ok(Number(row[2]) > Number(row[3]), `power over threshold in ${row}`);
-    assert.equal(await page.locator(`${plot} [data-series="threshold"]`).count(), 1);
-    await page.locator('[data-plot="range-doppler"] .plot').focus();
+    assert.equal(await plot.locator('[data-series="threshold"]').count(), 1);
+    await plotOf(page, 'Range-Doppler map').focus();
     await page.keyboard.press('n');
     await page.keyboard.press('ArrowRight');
     assert.match(await text('grouped'), /stronger peak 1 range bins?.*Keep local peaks only/s);
-    await page.locator('input[name="grouping"]').press(' ');
+    await checkbox(page, 'Keep local peaks only').press(' ');
     await why('kept');
-    await page.locator('[data-plot="range-doppler"] .plot').focus();
+    await plotOf(page, 'Range-Doppler map').focus();
     for (let i = 0; i < 4; i++) await page.keyboard.press('ArrowUp');
     assert.match(await text('below-threshold'), /No detection: [\d.]+ dB below its threshold.*false-alarm rate/s);
   },
@@ -127,10 +140,10 @@ browserTest(
 
 browserTest('capture: the address reproduces cell, frame and options', { path }, async ({ page, context }) => {
   await ready(page);
-  await page.locator('select[name="cfar"]').selectOption('ordered-statistic');
-  await page.locator('select[name="window"]').selectOption('blackman');
+  await combobox(page, 'Threshold').selectOption('ordered-statistic');
+  await combobox(page, 'Range window').selectOption('blackman');
   await ready(page);
-  await page.locator('[data-detection]:not([data-detection="board"]) .cell-button').nth(1).click();
+  await cells(page).nth(1).click();
   await parametersWith(
     page,
     (params) => params.get('cfar') === 'ordered-statistic' && params.get('window') === 'blackman' && params.has('cell'),
@@ -142,7 +155,7 @@ browserTest('capture: the address reproduces cell, frame and options', { path },
   await ready(other);
   await cellReady(other);
   assert.deepEqual(await detections(other), first);
-  assert.equal(await other.locator('tr[aria-selected="true"]').count(), 1);
+  assert.equal(await chosenRow(other).count(), 1);
 });
 
 browserTest(
@@ -151,7 +164,7 @@ browserTest(
   async ({ page }) => {
     await ready(page);
     const before = await detections(page);
-    const alert = page.locator('[role="alert"][data-error]');
+    const alert = page.getByRole('alert');
     for (const files of [
       [
         { name: 'cut.bin', bytes: bin.subarray(0, 100_000) },
@@ -165,10 +178,7 @@ browserTest(
       [{ name: 'photo.jpg', bytes: Buffer.from([1, 2, 3]) }],
     ]) {
       await drop(page, files);
-      await page.waitForFunction(
-        (name) => document.querySelector('[role="alert"][data-error]')?.textContent.includes(name),
-        files[0].name,
-      );
+      await alert.filter({ hasText: files[0].name }).waitFor();
       assert.match(await alert.getAttribute('data-error'), /^[a-z][a-z-]+$/);
       assert.match(await alert.innerText(), /expect|has no/);
       assert.deepEqual(await detections(page), before, 'the capture opened before is still shown');
@@ -177,7 +187,7 @@ browserTest(
       { name: 'mine.bin', bytes: bin },
       { name: 'mine.cfg', bytes: cfg },
     ]);
-    await page.waitForFunction(() => document.querySelector('.files').textContent.includes('mine.bin'));
+    await opened(page, 'mine.bin');
     await ready(page);
     assert.equal(await alert.count(), 0);
     assert.equal(
@@ -185,7 +195,7 @@ browserTest(
       0,
       'another capture has no log of the board',
     );
-    await page.locator('select[name="cfar"]').selectOption('greatest-of');
+    await combobox(page, 'Threshold').selectOption('greatest-of');
     await ready(page);
   },
 );
@@ -196,9 +206,7 @@ browserTest('capture: bytes after the last whole frame are counted', { path }, a
     { name: 'longer.bin', bytes: bin.subarray(0, 3 * 131_072 + 1000) },
     { name: 'profile.cfg', bytes: cfg },
   ]);
-  await page.waitForFunction(() =>
-    /All 3 frames/.test(document.querySelector('[data-action="all-frames"]').textContent),
-  );
+  await button(frames(page), 'All 3 frames').waitFor();
   await page.waitForFunction(() =>
     /Trailing bytes\s*1.?000/.test(document.querySelector('[data-facts="counts"]')?.innerText ?? ''),
   );
@@ -209,7 +217,7 @@ browserTest(
   { path: '#/capture?dopplerPadding=8' },
   async ({ page }) => {
     await ready(page);
-    const bar = clickWhenThere(page, '[data-progress] [data-action="cancel"]');
+    const bar = clickWhenThere(page, cancelOf('Processing'));
     await drop(page, [
       { name: 'long.bin', bytes: bin, times: 60 },
       { name: 'profile.cfg', bytes: cfg },
@@ -217,25 +225,12 @@ browserTest(
     const { value, max } = await bar;
     assert.ok(value >= 0 && value < max, `${value} of ${max}`);
     await page.waitForSelector('[data-cancelled]');
-    assert.equal(await page.locator('[data-progress]').count(), 0);
-    await page.locator('input[name="frame"]').press('ArrowRight');
-    await page.waitForFunction(() => /frame 2 of 480/.test(document.querySelector('output').textContent));
-    await page.waitForFunction(() =>
-      within('[data-plot="range-doppler"]', 'figcaption')?.textContent.includes('Frame 2 of 480'),
-    );
+    assert.equal(await progress(page, 'Processing').count(), 0);
+    await frameSlider(page).press('ArrowRight');
+    await frameSays(page, 'frame 2 of 480');
+    await captionOf(page, 'Range-Doppler map', 'Frame 2 of 480');
   },
 );
-
-/** Chooses files with the page's button, as a person does. */
-async function choose(page, files) {
-  const [chooser] = await Promise.all([
-    page.waitForEvent('filechooser'),
-    page.getByRole('button', { name: 'Open files' }).click(),
-  ]);
-  await chooser.setFiles(
-    files.map(({ name, bytes }) => ({ name, mimeType: 'application/octet-stream', buffer: bytes })),
-  );
-}
 
 browserTest(
   'capture: nothing of one capture stands under the name of another that was cancelled or failed',
@@ -244,14 +239,15 @@ browserTest(
     await ready(page);
     await cellReady(page);
     const nothing = async (state) => {
-      for (const what of ['[data-table]', '[data-plot]', '[data-export]'])
-        assert.equal(await page.locator(what).count(), 0, `${what} ${state}`);
+      const saves = page.getByRole('button', { name: /^(PNG|SVG|CSV|JSON|TI line)$/ });
+      for (const what of [page.locator('[data-table]'), page.locator('[data-plot]'), saves])
+        assert.equal(await what.count(), 0, `${what} ${state}`);
     };
     const bar = page.evaluate(
-      () =>
+      (cancel) =>
         new Promise((resolve) => {
           const look = () => {
-            const button = document.querySelector('[data-progress] [data-action="cancel"]');
+            const button = document.querySelector(cancel);
             if (!button) return;
             observer.disconnect();
             const shown = document.querySelectorAll('[data-table], [data-plot], [data-export]').length;
@@ -261,6 +257,7 @@ browserTest(
           const observer = new MutationObserver(look);
           observer.observe(document.body, { childList: true, subtree: true });
         }),
+      cancelOf('Processing'),
     );
     await drop(page, [
       { name: 'long.bin', bytes: bin, times: 60 },
@@ -270,20 +267,20 @@ browserTest(
     await page.waitForSelector('[data-cancelled]');
     assert.match(await page.locator('.files').innerText(), /long\.bin/);
     await nothing('after it was cancelled');
-    await page.locator('input[name="frame"]').press('ArrowRight');
+    await frameSlider(page).press('ArrowRight');
     await ready(page);
-    assert.match(await page.locator('[data-plot="range-doppler"] figcaption').innerText(), /Frame 2 of 480/);
-    await page.locator('select[name="array"]').selectOption('lrr48');
-    await page.waitForSelector('[role="alert"][data-error]');
+    await captionOf(page, 'Range-Doppler map', 'Frame 2 of 480');
+    await combobox(page, 'Virtual array').selectOption('lrr48');
+    await page.getByRole('alert').waitFor();
     await nothing('after an error');
-    await choose(page, [
+    await choose(page, button(page, 'Open files'), [
       { name: 'mine.bin', bytes: bin },
       { name: 'mine.cfg', bytes: cfg },
     ]);
-    await page.waitForFunction(() => document.querySelector('.files').textContent.includes('mine.bin'));
-    await page.waitForSelector('[role="alert"][data-error]');
+    await opened(page, 'mine.bin');
+    await page.getByRole('alert').waitFor();
     await nothing('of a capture that the settings do not suit');
-    await page.locator('select[name="array"]').selectOption('auto');
+    await combobox(page, 'Virtual array').selectOption('auto');
     await ready(page);
     await cellReady(page);
   },
@@ -330,7 +327,7 @@ browserTest(
     await ready(page);
     const waits = (missing) => page.waitForSelector(`[data-waiting="${missing}"]`);
     const files = () => page.locator('.files').innerText();
-    await choose(page, [{ name: 'mine.bin', bytes: bin }]);
+    await choose(page, button(page, 'Open files'), [{ name: 'mine.bin', bytes: bin }]);
     await waits('cfg');
     assert.match(
       await page.locator('[data-waiting]').innerText(),
@@ -340,13 +337,13 @@ browserTest(
     assert.doesNotMatch(await files(), /profile\.cfg|xwr16xx/);
     assert.equal(await page.locator('[data-table], [data-plot]').count(), 0);
     await drop(page, [{ name: 'wrong.cfg', bytes: Buffer.from('hello\n') }]);
-    await page.waitForSelector('[role="alert"][data-error]');
+    await page.getByRole('alert').waitFor();
     await waits('cfg');
     await drop(page, [{ name: 'mine.cfg', bytes: cfg }]);
     await ready(page);
     assert.match(await files(), /mine\.bin[\s\S]*mine\.cfg/);
-    await page.getByRole('button', { name: 'Bundled capture' }).click();
-    await page.waitForFunction(() => document.querySelector('.files').textContent.includes('xwr16xx'));
+    await button(page, 'Bundled capture').click();
+    await opened(page, 'xwr16xx');
     // In any order, and none is lost.
     await drop(page, [{ name: 'mine.dat', bytes: recording('xwr16xx_crw_demo_visualizer_2018_1015v2.dat') }]);
     await waits('bin,cfg');
@@ -373,7 +370,7 @@ browserTest('capture: a click on a cell does not send the capture again', { path
   await ready(page);
   await cellReady(page);
   const pick = async (nth) => {
-    await page.locator('[data-detection]:not([data-detection="board"]) .cell-button').nth(nth).click();
+    await cells(page).nth(nth).click();
     await parametersWith(page, (params) => params.has('cell'));
     await page.waitForFunction(() => !document.querySelector('[data-table="cell"] tr[aria-busy="true"]'));
   };
@@ -390,7 +387,8 @@ browserTest('capture: a click on a cell does not send the capture again', { path
 
 browserTest('capture: the table sorts', { path }, async ({ page }) => {
   await ready(page);
-  await page.locator('[data-table="detections"] button.sort', { hasText: 'Range' }).first().click();
+  await button(region(page, 'Detections'), 'Range (m)').first().click();
+  await page.locator('th[aria-sort="ascending"]').waitFor();
   const ranges = await values(page, '[data-table="detections"] [data-field="rangeM"]');
   assert.deepEqual(
     ranges,
@@ -402,23 +400,19 @@ browserTest('capture: the table sorts', { path }, async ({ page }) => {
 browserTest('capture: plots and tables are saved as PNG and CSV', { path }, async ({ page }) => {
   await ready(page);
   await cellReady(page);
-  for (const plot of ['range-profile', 'range-doppler', 'cell-spectrum'])
-    assertPng(await saved(page, `[data-plot="${plot}"] [data-export="png"]`));
+  const save = (from, as) => saved(page, button(from, as));
+  const [profile, map, cell] = ['Range profile', 'Range-Doppler map', 'Angle spectrum'].map((name) =>
+    figure(page, name),
+  );
+  for (const plot of [profile, map, cell]) assertPng(await save(plot, 'PNG'));
   assert.equal(
-    assertCsv(
-      await saved(page, '[data-plot="range-profile"] [data-export="csv"]'),
-      'range_m,power_dbfs,bin_power_dbfs,bin_threshold_dbfs',
-    ).length,
+    assertCsv(await save(profile, 'CSV'), 'range_m,power_dbfs,bin_power_dbfs,bin_threshold_dbfs').length,
     256,
   );
-  assert.equal(
-    assertCsv(await saved(page, '[data-plot="range-doppler"] [data-export="csv"]'), 'range_m,rate_mps,power_dbfs')
-      .length,
-    256 * 16,
-  );
-  const spectrum = await saved(page, '[data-plot="cell-spectrum"] [data-export="csv"]');
+  assert.equal(assertCsv(await save(map, 'CSV'), 'range_m,rate_mps,power_dbfs').length, 256 * 16);
+  const spectrum = await save(cell, 'CSV');
   assertCsv(spectrum, 'azimuth_deg,bartlett_dbfs,capon_dbfs,iaa_dbfs');
-  const table = await saved(page, '[data-table="detections"] [data-export="csv"]');
+  const table = await save(region(page, 'Detections'), 'CSV');
   assert.match(
     table.bytes.toString().split('\r\n')[0],
     /^range_bin,doppler_bin,range_m,rate_mps,azimuth_deg,.*board_azimuth_deg,range_difference_m,azimuth_difference_deg$/,

@@ -5,14 +5,12 @@ import { runCommands, runScript } from '../lib/code-run.mjs';
 import { drop, recording } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { patient } from '../lib/trial.mjs';
+import { button, opened, ready } from './page.mjs';
 import { json, setup, studio } from './studio.mjs';
 
 /** Of a capture: detections, and the cell's angles. */
 async function checkCapture(page, cells, close, files = {}) {
-  await page.waitForSelector(
-    '[aria-busy="false"] [data-table="detections"] [data-field="rangeM"][data-value]',
-    patient,
-  );
+  await ready(page);
   await settled(page, 'cell', cells);
   const rows = await page
     .locator('[data-table="detections"] tr[data-detection]:not([data-detection="board"])')
@@ -108,15 +106,12 @@ browserTest(
     const cfg = recording('profile.cfg');
     const half = Math.floor(bin.length / 2);
     const names = ["-it's $HOME `x`_Raw_0.bin", "-it's $HOME `x`_Raw_1.bin", '--config "a\nb".cfg'];
-    await page.waitForSelector(
-      '[aria-busy="false"] [data-table="detections"] [data-field="rangeM"][data-value]',
-      patient,
-    );
+    await ready(page);
     await drop(
       page,
       [bin.subarray(0, half), bin.subarray(half), cfg].map((bytes, i) => ({ name: names[i], bytes })),
     );
-    await page.waitForFunction((name) => document.querySelector('.files')?.textContent.includes(name), names[0]);
+    await opened(page, names[0]);
     const files = { [names[0]]: bin.subarray(0, half), [names[1]]: bin.subarray(half), [names[2]]: cfg };
     const { code } = await checkCapture(page, ['bartlett', 'capon', 'iaa'], 1e-4, files);
     for (const { needs } of Object.values(code)) for (const name of names) assert.ok(needs.includes(name), needs);
@@ -125,12 +120,9 @@ browserTest(
 
 browserTest('code: a capture with the files of mmWave Studio', { path: '#/capture' }, async ({ page }) => {
   const bin = recording('xwr16xx_crw_dca_module_2018_1015v2.bin');
-  await page.waitForSelector(
-    '[aria-busy="false"] [data-table="detections"] [data-field="rangeM"][data-value]',
-    patient,
-  );
+  await ready(page);
   await drop(page, [json('b.mmwave.json', studio()), json('b.setup.json', setup), { name: 'b.bin', bytes: bin }]);
-  await page.waitForFunction(() => document.querySelector('.files')?.textContent.includes('b.bin'));
+  await opened(page, 'b.bin');
   const texts = { 'b.mmwave.json': JSON.stringify(studio()), 'b.setup.json': JSON.stringify(setup) };
   await checkCapture(page, ['bartlett', 'capon', 'iaa'], 1e-4, { 'b.bin': bin, ...texts });
 });
@@ -139,8 +131,7 @@ browserTest(
   'code: a capture under an array calibration that was made here',
   { path: '#/capture?methods=bartlett,nomp' },
   async ({ page }) => {
-    await page.waitForSelector('[data-action="self-calibrate"]', patient);
-    await page.locator('[data-action="self-calibrate"]').click();
+    await button(page, 'Self-calibrate').click(patient);
     await page.waitForSelector('[aria-busy="false"] [data-before-after] [data-row="others-after"]', patient);
     const { code } = await checkCapture(page, ['bartlett', 'nomp'], 1e-4);
     assert.match(code.javascript.text, /const calibration = \{/);

@@ -3,11 +3,13 @@ import assert from 'node:assert/strict';
 import { assertCsv, parameters, parametersWith, saved, values } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { leave, typeNumber } from '../lib/type.mjs';
+import { later } from '../state/undo.mjs';
+import { button, combobox, figure, ready, spinbutton } from './page.mjs';
 
 const path = '#/angle?array=ula10&targets=-5:0,12:0&snr=20&snapshots=100&seed=1&methods=bartlett,music,root-music';
 const shown = (page) => page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');
 const table = '[data-table="compare"]';
-const action = (page, name) => page.locator(`[data-action="${name}"]`);
+const press = (page, name) => button(page, name).click();
 /** Text of A and B in each setting that differs. */
 const settings = (page) =>
   page
@@ -25,7 +27,7 @@ const rmsShown = async (page, method) => {
 const near = (a, b) => assert.ok(Math.abs(a - b) < 1e-12, `${a} is ${b}`);
 
 async function typeSnr(page, text) {
-  const field = page.locator('input[name="snr"]');
+  const field = spinbutton(page, 'SNR');
   await typeNumber(field, text);
   await leave(field);
   await parametersWith(page, (params) => params.get('snr') === text);
@@ -34,7 +36,7 @@ async function typeSnr(page, text) {
 browserTest('compare: what is kept as A stays while B changes, is swapped and dropped', { path }, async ({ page }) => {
   await shown(page);
   const errorOfA = await rmsShown(page, 'root-music');
-  await action(page, 'keep-a').click();
+  await press(page, 'Keep as A');
   await computed(page, 'root-music', 'a');
   assert.deepEqual(await settings(page), [], 'A is B at first');
   near((await error(page, 'root-music', 'a'))[0], errorOfA);
@@ -54,16 +56,17 @@ browserTest('compare: what is kept as A stays while B changes, is swapped and dr
   const [boundA] = await error(page, 'bound', 'a');
   const [boundB] = await error(page, 'bound', 'b');
   assert.ok(boundB > 5 * boundA, 'at 15 dB less the bound is wider');
+  const plot = figure(page, 'Angle spectrum');
   for (const id of ['bartlett-a', 'music-a', 'root-music-a'])
-    assert.equal(await page.locator(`[data-plot="spectrum"] [data-series="${id}"]`).count(), 1, id);
+    assert.equal(await plot.locator(`[data-series="${id}"]`).count(), 1, id);
 
   // Both curves are in the numbers and in the pictures.
   const rows = assertCsv(
-    await saved(page, '[data-plot="spectrum"] [data-export="csv"]'),
+    await saved(page, button(plot, 'CSV')),
     'azimuth_deg,bartlett_db,music_db,bartlett_a_db,music_a_db',
   );
   assert.ok(rows.some(([, b, , a]) => Math.abs(Number(a) - Number(b)) > 3));
-  const svg = (await saved(page, '[data-plot="spectrum"] [data-export="svg"]')).bytes.toString('utf8');
+  const svg = (await saved(page, button(plot, 'SVG'))).bytes.toString('utf8');
   assert.match(svg, /A, dashed: SNR \(dB\) 20/);
   assert.equal(
     (
@@ -76,21 +79,21 @@ browserTest('compare: what is kept as A stays while B changes, is swapped and dr
   );
 
   // Changes near to each other are one to Undo.
-  await page.waitForTimeout(900);
-  await action(page, 'swap').click();
+  await later(page);
+  await press(page, 'Swap');
   await parametersWith(page, (params) => params.get('snr') === '20');
   await page.waitForFunction(() => document.querySelector('[data-setting="snr"]')?.textContent.includes('520'));
   await page.keyboard.press('Control+z');
   await parametersWith(page, (params) => params.get('snr') === '5');
-  await action(page, 'drop-a').press('Enter');
+  await button(page, 'Drop A').press('Enter');
   await parametersWith(page, (params) => !params.has('a') && params.get('snr') === '5');
   assert.equal(await page.locator(table).count(), 0);
-  assert.equal(await page.locator('[data-plot="spectrum"] [data-series="music-a"]').count(), 0);
+  assert.equal(await plot.locator('[data-series="music-a"]').count(), 0);
 });
 
 browserTest('compare: a link brings both', { path, viewport: 'phone' }, async ({ page, context, url }) => {
   await shown(page);
-  await action(page, 'keep-a').tap();
+  await button(page, 'Keep as A').tap();
   await parametersWith(page, (params) => params.get('a')?.includes('snr=20'));
   const a = 'array=ula12&targets=-8:0&snr=3&snapshots=20&seed=4&methods=capon';
   const other = await context.newPage();
@@ -111,22 +114,21 @@ browserTest('compare: a link brings both', { path, viewport: 'phone' }, async ({
 });
 
 browserTest('compare: two chains on one capture', { path: '#/capture' }, async ({ page, context }) => {
-  const processed = (one) => one.waitForSelector('[aria-busy="false"] [data-table="detections"]');
-  const figure = async (one, id) =>
+  const measured = async (one, id) =>
     Object.fromEntries(
       await one
         .locator(`${table} [data-row="${id}"] [data-field]`)
         .evaluateAll((cells) => cells.map(({ dataset }) => [dataset.field, Number(dataset.value)])),
     );
   const there = (one) => one.waitForSelector(`${table} [data-row="detections"]`);
-  await processed(page);
-  await action(page, 'keep-a').click();
+  await ready(page);
+  await press(page, 'Keep as A');
   await there(page);
-  const before = await figure(page, 'detections');
+  const before = await measured(page, 'detections');
   assert.equal(before.a, before.b);
   assert.equal(before.b, await page.locator('[data-table="detections"] tbody tr.pick').count());
-  await page.locator('select[name="window"]').selectOption('blackman');
-  await page.locator('select[name="rangePadding"]').selectOption('2');
+  await combobox(page, 'Range window').selectOption('blackman');
+  await combobox(page, 'Range padding').selectOption('2');
   await page.waitForFunction((rows) => {
     const cell = (field) => document.querySelector(`${rows} [data-row="bins"] [data-field="${field}"]`)?.dataset.value;
     return Number(cell('b')) === 2 * Number(cell('a'));
@@ -138,21 +140,21 @@ browserTest('compare: two chains on one capture', { path: '#/capture' }, async (
       ['rangePadding', '1', '2'],
     ],
   );
-  assert.equal((await figure(page, 'detections')).a, before.a, 'A stays');
-  const plot = '[data-plot="range-profile"]';
-  assert.equal(await page.locator(`${plot} [data-series="a"]`).count(), 1);
-  const svg = (await saved(page, `${plot} [data-export="svg"]`)).bytes.toString('utf8');
+  assert.equal((await measured(page, 'detections')).a, before.a, 'A stays');
+  const plot = figure(page, 'Range profile');
+  assert.equal(await plot.locator('[data-series="a"]').count(), 1);
+  const svg = (await saved(page, button(plot, 'SVG'))).bytes.toString('utf8');
   assert.match(svg, /stroke-dasharray="8,8"/);
   assert.match(svg, /A, dashed: /);
   await parametersWith(page, (params) => params.has('a') && params.get('window') === 'blackman');
   const other = await context.newPage();
   await other.goto(page.url());
-  await processed(other);
+  await ready(other);
   await there(other);
-  assert.deepEqual(await figure(other, 'peak'), await figure(page, 'peak'));
-  await action(page, 'swap').click();
+  assert.deepEqual(await measured(other, 'peak'), await measured(page, 'peak'));
+  await press(page, 'Swap');
   await parametersWith(page, (params) => !params.has('window'));
-  await action(page, 'drop-a').click();
+  await press(page, 'Drop A');
   await parametersWith(page, (params) => !params.has('a'));
-  assert.equal(await page.locator(`${plot} [data-series="a"]`).count(), 0);
+  assert.equal(await plot.locator('[data-series="a"]').count(), 0);
 });

@@ -13,23 +13,40 @@ import {
 } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { leave, typeNumber } from '../lib/type.mjs';
+import {
+  button,
+  cancelOf,
+  captionOf,
+  figure,
+  frameSays,
+  frameSlider,
+  frames,
+  opened,
+  plotOf,
+  progress,
+  spinbutton,
+} from './page.mjs';
 
 const path = '#/capture';
 const bin = recording('xwr16xx_crw_dca_module_2018_1015v2.bin');
 const cfg = recording('profile.cfg');
 const FRAME_BYTES = 131_072;
 
-const whole = (page, frames) =>
-  page.waitForFunction(
-    (wanted) =>
-      document.querySelector(`[data-over-time="${wanted}"] [data-plot="micro-doppler"]`) &&
-      !document.querySelector('[data-action="cancel-over-time"]'),
-    frames,
-  );
+const RANGE = 'Range over time';
+const RATE = 'Micro-Doppler';
+const working = (page) => progress(page, 'Frames over time');
+async function whole(page, count) {
+  await page.locator(`[data-over-time="${count}"] [data-plot="micro-doppler"]`).waitFor();
+  await working(page).waitFor({ state: 'detached' });
+}
+const save = (page, plot, as) => saved(page, button(figure(page, plot), as));
 const csv = async (page, plot, header) =>
-  assertCsv(await saved(page, `[data-plot="${plot}"] [data-export="csv"]`), header).map((row) => row.map(Number));
-const rangeTime = (page) => csv(page, 'range-time', 'frame,time_s,range_m,power_dbfs');
-const microDoppler = (page) => csv(page, 'micro-doppler', 'frame,time_s,rate_mps,power_dbfs');
+  assertCsv(await save(page, plot, 'CSV'), header).map((row) => row.map(Number));
+const rangeTime = (page) => csv(page, RANGE, 'frame,time_s,range_m,power_dbfs');
+const microDoppler = (page) => csv(page, RATE, 'frame,time_s,rate_mps,power_dbfs');
+/** Range or ranges that the micro-Doppler is of. */
+const gateOf = (page) => figure(page, RATE).locator('.detail');
+const left = (page) => page.locator('[data-over-time-left]');
 const close = (given, wanted, tolerance, what) =>
   assert.ok(Math.abs(given - wanted) <= tolerance, `${what}: ${given}, not ${wanted}`);
 
@@ -49,18 +66,15 @@ browserTest('over time: columns are the frames’ own profiles and maps', { path
   const [overRange, overRate] = [await rangeTime(page), await microDoppler(page)];
   assert.equal(overRange.length, 8 * 256);
   assert.equal(overRate.length, 8 * 16);
-  const gate = await page.locator('[data-plot="micro-doppler"] .detail').innerText();
+  const gate = await gateOf(page).innerText();
   const [from, to] = gate.match(/[\d.]+/g).map(Number);
   assert.ok(from < 2.95 && to > 2.95 && to - from <= 0.5, `around the strongest target: ${gate}`);
-  await page.locator('input[name="frame"]').press('ArrowRight');
+  await frameSlider(page).press('ArrowRight');
   for (const frame of [2, 3]) {
-    if (frame > 2) await page.locator('input[name="frame"]').press('ArrowRight');
-    await page.waitForFunction(
-      (shown) => within('[data-plot="range-profile"]', 'figcaption')?.textContent.includes(`Frame ${shown} of`),
-      frame,
-    );
-    const profile = await csv(page, 'range-profile', 'range_m,power_dbfs,bin_power_dbfs,bin_threshold_dbfs');
-    const map = await csv(page, 'range-doppler', 'range_m,rate_mps,power_dbfs');
+    if (frame > 2) await frameSlider(page).press('ArrowRight');
+    await captionOf(page, 'Range profile', `Frame ${frame} of`);
+    const profile = await csv(page, 'Range profile', 'range_m,power_dbfs,bin_power_dbfs,bin_threshold_dbfs');
+    const map = await csv(page, 'Range-Doppler map', 'range_m,rate_mps,power_dbfs');
     const column = overRange.filter(([of]) => of === frame);
     profile.forEach(([range, power], i) => {
       // 40 ms a frame by the .cfg. Powers are kept in single precision.
@@ -75,13 +89,12 @@ browserTest('over time: columns are the frames’ own profiles and maps', { path
       close(power, 10 * Math.log10(sum), 1e-4, `power at ${rate} m/s of frame ${frame}`);
     }
   }
-  for (const plot of ['range-time', 'micro-doppler'])
-    assertPng(await saved(page, `[data-plot="${plot}"] [data-export="png"]`));
+  for (const plot of [RANGE, RATE]) assertPng(await save(page, plot, 'PNG'));
 });
 
 browserTest('over time: a click or a key goes to a frame, which is marked', { path }, async ({ page }) => {
   await whole(page, 8);
-  const plot = page.locator('[data-plot="range-time"]');
+  const plot = plotOf(page, RANGE);
   const head = plot.locator('.playhead');
   assert.equal(await head.isVisible(), false, 'no frame is marked while all are together');
   const over = plot.locator('.u-over');
@@ -91,48 +104,45 @@ browserTest('over time: a click or a key goes to a frame, which is marked', { pa
   const middle = (frame) => box.width * ((frame - 0.5) / 8);
   await over.click({ position: { x: middle(6), y: box.height / 2 } });
   await parametersWith(page, (params) => params.get('frame') === '5');
-  await page.waitForFunction(() => /frame 6 of 8, 200 ms/.test(document.querySelector('output').textContent));
+  await frameSays(page, 'frame 6 of 8, 200 ms');
   const at = async () => {
     const line = await head.boundingBox();
     return line.x + line.width / 2 - (await over.boundingBox()).x;
   };
   close(await at(), middle(6), 1.5, 'the mark');
-  await plot.locator('.plot').focus();
+  await plot.focus();
   await page.keyboard.press('ArrowRight');
   await parametersWith(page, (params) => params.get('frame') === '6');
   close(await at(), middle(7), 1.5, 'the mark');
   await page.keyboard.press('Shift+ArrowLeft');
   await parametersWith(page, (params) => params.get('frame') === '0');
   await page.keyboard.press(' ');
-  await page.waitForSelector('[data-action="play"][aria-pressed="true"]');
+  await frames(page).getByRole('button', { name: 'Pause', pressed: true }).waitFor();
   await parametersWith(page, (params) => Number(params.get('frame')) > 1);
   await page.keyboard.press(' ');
-  await page.waitForSelector('[data-action="play"][aria-pressed="false"]');
-  assert.equal(await page.locator('[data-action="cancel-over-time"]').count(), 0);
+  await frames(page).getByRole('button', { name: 'Play', pressed: false }).waitFor();
+  assert.equal(await working(page).count(), 0);
 });
 
 browserTest('over time: the gate is where the cell is, and as wide as typed', { path }, async ({ page }) => {
   await whole(page, 8);
-  const gate = () => page.locator('[data-plot="micro-doppler"] .detail').innerText();
-  const first = await gate();
-  await page.locator('[data-plot="range-time"] .plot').focus();
+  const gate = gateOf(page);
+  const first = await gate.innerText();
+  await plotOf(page, RANGE).focus();
   await page.keyboard.press('Shift+ArrowUp');
   await parametersWith(page, (params) => params.has('cell'));
-  await page.waitForFunction(
-    (before) => within('[data-plot="micro-doppler"]', '.detail').textContent !== before,
-    first,
-  );
+  await gate.filter({ hasNotText: first }).waitFor();
   const bin = Number(parameters(page).get('cell').split(':')[0]);
-  const width = page.locator('input[name="gate"]');
+  const width = spinbutton(page, 'Range gate ±');
   await typeNumber(width, '0');
   await leave(width);
-  await page.waitForFunction(() => /^[\d.]+ m$/.test(within('[data-plot="micro-doppler"]', '.detail').textContent));
-  const profile = await csv(page, 'range-profile', 'range_m,power_dbfs,bin_power_dbfs,bin_threshold_dbfs');
-  close(Number.parseFloat(await gate()), profile[bin][0], 0.006, 'the gate is the bin of the cell');
+  await gate.filter({ hasText: /^[\d.]+ m$/ }).waitFor();
+  const profile = await csv(page, 'Range profile', 'range_m,power_dbfs,bin_power_dbfs,bin_threshold_dbfs');
+  close(Number.parseFloat(await gate.innerText()), profile[bin][0], 0.006, 'the gate is the bin of the cell');
   await parametersWith(page, (params) => params.get('gate') === '0');
   await reload(page);
   await whole(page, 8);
-  close(Number.parseFloat(await gate()), profile[bin][0], 0.006, 'the link holds it');
+  close(Number.parseFloat(await gate.innerText()), profile[bin][0], 0.006, 'the link holds it');
 });
 
 browserTest(
@@ -140,21 +150,21 @@ browserTest(
   { path: '#/capture?dopplerPadding=8&frame=2' },
   async ({ page }) => {
     await whole(page, 8);
-    const bar = clickWhenThere(page, '[data-opening] [data-action="cancel-over-time"]');
+    const bar = clickWhenThere(page, cancelOf('Frames over time'));
     await drop(page, [
       { name: 'long.bin', bytes: fading(bin), times: 40 },
       { name: 'profile.cfg', bytes: cfg },
     ]);
     const { value, max } = await bar;
     assert.ok(value > 0 && value < max, `${value} of ${max}`);
-    await page.waitForSelector('[data-interrupted] [data-action="resume-over-time"]');
-    const [, done] = (await page.locator('[data-interrupted]').innerText()).match(/after (\d+) of 320 frames/);
+    const stopped = page.getByText(/^Over time: stopped/);
+    const [, done] = (await stopped.innerText()).match(/after (\d+) of 320 frames/);
     assert.ok(Number(done) < 320);
     const part = (await rangeTime(page)).filter(([, , , power]) => power !== 0 && Number.isFinite(power));
     assert.ok(part.length < 320 * 256, 'what was not reached is blank');
-    await page.locator('[data-action="resume-over-time"]').click();
+    await button(page.getByRole('region', { name: 'Over time' }), 'Go on').click();
     await whole(page, 320);
-    assert.equal(await page.locator('[data-interrupted]').count(), 0);
+    assert.equal(await stopped.count(), 0);
     const all = await rangeTime(page);
     assert.equal(all.length, 320 * 256);
     const near = (frame) => all[(frame - 1) * 256 + 58];
@@ -181,18 +191,18 @@ browserTest('over time: frames that fail are counted, named and left blank', { p
   const marked = Buffer.from(bin);
   for (let frame = 0; frame < 8; frame++) marked[frame * FRAME_BYTES] = frame === 4 ? 77 : 1;
   await whole(page, 8);
-  assert.equal(await page.locator('[data-over-time-left]').count(), 0);
+  assert.equal(await left(page).count(), 0);
   await drop(page, [
     { name: 'one-fails.bin', bytes: Buffer.concat([marked, bin.subarray(0, 1000)]) },
     { name: 'profile.cfg', bytes: cfg },
   ]);
-  await page.waitForFunction(() => document.querySelector('.files').textContent.includes('one-fails.bin'));
-  await page.waitForSelector('[data-over-time-left]');
+  await opened(page, 'one-fails.bin');
+  await left(page).waitFor();
   await whole(page, 8);
-  const said = await page.locator('[data-over-time-left]').innerText();
+  const said = await left(page).innerText();
   assert.match(said, /1 of 8 frames could not be processed and are left blank \(frame 5\)/);
   assert.match(said, /cut short, 1.?000 bytes/);
-  const blob = await saved(page, '[data-plot="range-time"] [data-export="csv"]');
+  const blob = await save(page, RANGE, 'CSV');
   const rows = assertCsv(blob, 'frame,time_s,range_m,power_dbfs');
   assert.ok(rows.every(([frame, , , power]) => (power === '') === (frame === '5')));
 });
@@ -211,12 +221,8 @@ browserTest(
       { name: 'fine.bin', bytes: bin.subarray(0, 131_072), times: 500 },
       { name: 'fine.cfg', bytes: Buffer.from(long) },
     ]);
-    await page.waitForSelector('[data-over-time-left]');
-    assert.match(
-      await page.locator('[data-over-time-left]').innerText(),
-      /One frame of 2 is shown: 125 of 250 are left out/,
-    );
-    const over = page.locator('[data-plot="range-time"] .u-over');
+    assert.match(await left(page).innerText(), /One frame of 2 is shown: 125 of 250 are left out/);
+    const over = plotOf(page, RANGE).locator('.u-over');
     await over.scrollIntoViewIfNeeded();
     const { width, height } = await over.boundingBox();
     await over.click({ position: { x: (width * 100.5) / 125, y: height / 2 } });

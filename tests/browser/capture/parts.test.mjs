@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { assertCsv, drop, recording, saved } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
+import { button, choose, figure, frames, opened, progress, ready } from './page.mjs';
 
 const path = '#/capture';
 const bin = recording('xwr16xx_crw_dca_module_2018_1015v2.bin');
@@ -11,16 +12,10 @@ const CUTS = [0, 300_001, 340_007, bin.length];
 const parts = [0, 1, 2].map((i) => bin.subarray(CUTS[i], CUTS[i + 1]));
 const named = (numbers) => numbers.map((n, i) => ({ name: `adc_data_Raw_${n}.bin`, bytes: parts[i] }));
 
-const opened = (page, text) =>
-  page.waitForFunction((wanted) => document.querySelector('.files')?.textContent.includes(wanted), text);
-const ready = (page) =>
-  page.waitForSelector('[aria-busy="false"] [data-table="detections"] [data-field="rangeM"][data-value]');
-const overTime = (page) =>
-  page.waitForFunction(
-    () =>
-      document.querySelector('[data-over-time="8"] [data-plot="micro-doppler"]') &&
-      !document.querySelector('[data-action="cancel-over-time"]'),
-  );
+async function overTime(page) {
+  await page.locator('[data-over-time="8"] [data-plot="micro-doppler"]').waitFor();
+  await progress(page, 'Frames over time').waitFor({ state: 'detached' });
+}
 const detections = (page) =>
   page
     .locator('[data-table="detections"] tbody tr[data-detection] [data-field][data-value]:not([data-field^="board"])')
@@ -28,16 +23,15 @@ const detections = (page) =>
 const ofRows = async (page) =>
   (await detections(page)).filter((cell) => /^(rangeM|rateMps|azimuthDeg|powerDb|snrDb) /.test(cell));
 const profiles = async (page) =>
-  assertCsv(await saved(page, '[data-plot="range-time"] [data-export="csv"]'), 'frame,time_s,range_m,power_dbfs');
+  assertCsv(await saved(page, button(figure(page, 'Range over time'), 'CSV')), 'frame,time_s,range_m,power_dbfs');
 const listed = (page) => page.locator('.files .file').allInnerTexts();
 const refused = async (page, files, code = 'recording-parts') => {
   await drop(page, files);
-  await page.waitForFunction(
-    (names) => names.some((name) => document.querySelector('[role="alert"]')?.textContent.includes(name)),
-    files.map(({ name }) => name),
-  );
-  assert.equal(await page.locator('[role="alert"]').getAttribute('data-error'), code);
-  return page.locator('[role="alert"]').innerText();
+  const alert = page.getByRole('alert');
+  const named = files.map(({ name }) => alert.filter({ hasText: name }));
+  await named.reduce((any, one) => any.or(one)).waitFor();
+  assert.equal(await alert.getAttribute('data-error'), code);
+  return alert.innerText();
 };
 
 browserTest('parts: three files cut anywhere are the recording they were cut from', { path }, async ({ page }) => {
@@ -66,21 +60,13 @@ browserTest('parts: three files cut anywhere are the recording they were cut fro
     await page.locator('[data-doubt="missing-part"]').innerText(),
     /adc_data_Raw_0\.bin to adc_data_Raw_8\.bin/,
   );
-  assert.match(await page.locator('[data-action="all-frames"]').innerText(), /All 8 frames/);
+  assert.match(await button(frames(page), /^All/).innerText(), /All 8 frames/);
   assert.deepEqual(await ofRows(page), rows);
   assert.deepEqual(await profiles(page), columns);
   // Chosen with the button as well, and before their .cfg.
-  await page.getByRole('button', { name: 'Bundled capture' }).click();
+  await button(page, 'Bundled capture').click();
   await opened(page, 'xwr16xx');
-  const [chooser] = await Promise.all([
-    page.waitForEvent('filechooser'),
-    page.getByRole('button', { name: 'Open files' }).click(),
-  ]);
-  await chooser.setFiles(
-    named([1, 2, 3])
-      .reverse()
-      .map(({ name, bytes }) => ({ name, mimeType: 'application/octet-stream', buffer: bytes })),
-  );
+  await choose(page, button(page, 'Open files'), named([1, 2, 3]).reverse());
   await page.waitForSelector('[data-waiting="cfg"]');
   assert.deepEqual(await listed(page), ['adc_data_Raw_1.bin', 'adc_data_Raw_2.bin', 'adc_data_Raw_3.bin']);
   await drop(page, [cfg]);

@@ -7,10 +7,15 @@ import { brotliCompressSync } from 'node:zlib';
 import { root } from '../../../scripts/lib/paths.mjs';
 import { assertCsv, assertPng, parameters, parametersWith, saved, values } from '../lib/demo.mjs';
 import { browserTest, skipWithoutBrowser } from '../lib/harness.mjs';
+import { typeNumber } from '../lib/type.mjs';
 import { findings } from '../site/axe.mjs';
+import { button, chosenRow, frameSlider, frames, region, spinbutton, twoFrames } from './page.mjs';
 
 const SIMULATED = '#/capture?source=simulated&frame=0&methods=bartlett&points=space';
-const host = '[data-space="points"] .space-host';
+const space = (page) => region(page, 'Point cloud in 3-D');
+const host = (page) => space(page).getByRole('application');
+const readout = (page) => space(page).locator('[data-readout]');
+const fromAbove = (page) => page.locator('[data-plot="points"]');
 // Locators, since handles of elements keep them from being given back.
 const ready = (page, name = 'points') => page.locator(`[data-space="${name}"][data-state="ready"]`).waitFor();
 const colours = ({ page, bytes }) =>
@@ -28,14 +33,13 @@ const colours = ({ page, bytes }) =>
     }
     return { saturated, corner, width: image.width, height: image.height };
   }, bytes.toString('base64'));
-const picture = (page) => page.locator(host).screenshot();
+const picture = (page) => host(page).screenshot();
 /** Waits until the picture of the view is as `accepts` wants it, and gives it. */
 async function drawn(page, accepts, message) {
   for (let tries = 0; tries < 100; tries++) {
     const now = await picture(page);
     if (accepts(now)) return now;
-    // Two frames of the page, in which it may draw.
-    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    await twoFrames(page);
   }
   return assert.fail(message);
 }
@@ -45,11 +49,11 @@ const changes = (page, before, message = 'the view has not changed') =>
   drawn(page, (now) => !now.equals(before), message);
 /** Where the view draws its largest chosen ring would need its own eyes: the middle of what the pointer finds is a point. */
 async function findPoint(page) {
-  const box = await page.locator(host).boundingBox();
+  const box = await host(page).boundingBox();
   for (let y = 20; y < box.height - 20; y += 14) {
     for (let x = 20; x < box.width - 20; x += 14) {
       await page.mouse.move(box.x + x, box.y + y);
-      if (await page.locator(`${host} canvas.over`).count()) return { x: box.x + x, y: box.y + y };
+      if (await host(page).locator('canvas.over').count()) return { x: box.x + x, y: box.y + y };
     }
   }
   return assert.fail('no point was found under the pointer');
@@ -69,18 +73,13 @@ browserTest('space: a simulated board tells azimuth, elevation and places', { pa
   const sign = x.findIndex((at, i) => Math.abs(at - 17) < 1 && Math.abs(z[i] - 4.2) < 0.5 && Math.abs(y[i]) < 4);
   assert.ok(sign >= 0, `a sign among ${x.map((at, i) => [at, y[i], z[i]].map((v) => v.toFixed(1)))}`);
   const rows = assertCsv(
-    await saved(page, '[data-table="detections"] [data-export="csv"]'),
+    await saved(page, button(region(page, 'Detections'), 'CSV')),
     'range_bin,doppler_bin,range_m,rate_mps,azimuth_deg,elevation_deg,x_m,y_m,z_m,power_dbfs,snr_db',
   );
   assert.equal(rows.length, x.length);
   assert.match(await page.locator('.controls').innerText(), /Simulated in this page/);
   // Steep ones go, and are counted.
-  await page.locator('summary', { hasText: 'Detection' }).first().isVisible();
-  const field = page.locator('input[name="elevation"]');
-  await field.click();
-  await page.keyboard.press('ControlOrMeta+a');
-  await page.keyboard.type('5');
-  await page.keyboard.press('Enter');
+  await typeNumber(spinbutton(page, 'Elevation ±'), '5');
   await page.waitForFunction(
     (before) => document.querySelectorAll('[data-table="detections"] tbody tr.pick').length < before,
     x.length,
@@ -90,7 +89,7 @@ browserTest('space: a simulated board tells azimuth, elevation and places', { pa
 
 browserTest('space: it turns, zooms, chooses and is reset by keys', { path: SIMULATED }, async ({ page }) => {
   await ready(page);
-  await page.locator(host).focus();
+  await host(page).focus();
   const first = await picture(page);
   await page.keyboard.press('ArrowLeft');
   await changes(page, first, 'an arrow turns it');
@@ -105,13 +104,13 @@ browserTest('space: it turns, zooms, chooses and is reset by keys', { path: SIMU
   await page.keyboard.press('n');
   await parametersWith(page, (params) => params.has('cell'));
   const one = parameters(page).get('cell');
-  const chosen = page.locator('[data-table="detections"] tr[aria-selected="true"]').first();
+  const chosen = chosenRow(page).first();
   assert.equal(await chosen.getAttribute('data-detection'), one);
   await page.keyboard.press('n');
   await parametersWith(page, (params) => params.get('cell') !== one);
   await page.keyboard.press('p');
   await parametersWith(page, (params) => params.get('cell') === one);
-  assert.match(await page.locator('[data-readout]').innerText(), /forward .* m +left .* m +up .* m +rate/);
+  assert.match(await readout(page).innerText(), /forward .* m +left .* m +up .* m +rate/);
 });
 
 browserTest(
@@ -119,24 +118,24 @@ browserTest(
   { path: SIMULATED },
   async ({ page }) => {
     await ready(page);
-    await page.locator(host).scrollIntoViewIfNeeded();
+    await host(page).scrollIntoViewIfNeeded();
     const at = await findPoint(page);
-    assert.match(await page.locator('[data-readout]').innerText(), /^forward/);
+    assert.match(await readout(page).innerText(), /^forward/);
     await page.mouse.click(at.x, at.y);
     await parametersWith(page, (params) => params.has('cell'));
     const cell = parameters(page).get('cell');
-    const row = page.locator('[data-table="detections"] tr[aria-selected="true"]').first();
+    const row = chosenRow(page).first();
     assert.equal(await row.getAttribute('data-detection'), cell);
     const before = await picture(page);
-    const other = page.locator(`[data-table="detections"] tr.pick:not([data-detection="${cell}"])`).first();
-    await other.click();
+    const unchosen = page.getByRole('button', { name: /show the cell/, pressed: false });
+    await region(page, 'Detections').getByRole('row').filter({ has: unchosen }).first().click();
     await parametersWith(page, (params) => params.get('cell') !== cell);
     await page.mouse.move(1, 1);
-    await page.locator(host).scrollIntoViewIfNeeded();
+    await host(page).scrollIntoViewIfNeeded();
     await changes(page, before, 'what the table chooses has the ring');
     // A drag turns and chooses nothing.
     const now = parameters(page).get('cell');
-    const box = await page.locator(host).boundingBox();
+    const box = await host(page).boundingBox();
     const still = await picture(page);
     await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
     await page.mouse.down();
@@ -151,15 +150,15 @@ for (const scheme of ['light', 'dark']) {
   browserTest(`space: it is drawn in colour and saved, ${scheme}`, { path: SIMULATED, scheme }, async ({ page }) => {
     await ready(page);
     assert.deepEqual(await findings(page), []);
-    const image = await saved(page, '[data-space="points"] [data-export="png"]');
+    const image = await saved(page, button(space(page), 'PNG'));
     assertPng(image);
     const { saturated, corner, width } = await colours({ page, bytes: image.bytes });
     assert.ok(saturated > 800, `${saturated} pixels of points`);
     assert.deepEqual(corner, scheme === 'light' ? [255, 255, 255] : [25, 29, 33]);
-    const box = await page.locator(host).boundingBox();
+    const box = await host(page).boundingBox();
     assert.ok(Math.abs(width - 2 * box.width) < 8, `${width} pixels of ${box.width}`);
     for (const by of ['power', 'height', 'rate']) {
-      await page.locator('select[name="points-colour"]').selectOption(by);
+      await space(page).getByRole('combobox', { name: 'Colour' }).selectOption(by);
       await page.waitForSelector(`[data-legend="${by}"]`);
     }
   });
@@ -168,17 +167,16 @@ for (const scheme of ['light', 'dark']) {
 browserTest('space: frames play in it', { path: SIMULATED }, async ({ page }) => {
   await ready(page);
   const first = await picture(page);
-  const frames = page.getByRole('region', { name: 'Frames' });
-  await frames.getByRole('button', { name: 'Play' }).click();
+  await button(frames(page), 'Play').click();
   await parametersWith(page, (params) => Number(params.get('frame')) > 1);
-  await frames.getByRole('button', { name: 'Pause' }).click();
+  await button(frames(page), 'Pause').click();
   // It may have come to stand on the first frame again: on to the last.
-  await frames.getByRole('slider', { name: 'Frame' }).focus();
+  await frameSlider(page).focus();
   await page.keyboard.press('End');
-  const head = page.locator('[data-space="points"] .panel-head');
+  const head = space(page).locator('.panel-head');
   await head.filter({ hasNotText: 'Frame 1 of' }).waitFor();
   await changes(page, first, 'points move');
-  assert.equal(await page.locator('[data-space="points"]').getAttribute('data-state'), 'ready');
+  assert.equal(await space(page).getAttribute('data-state'), 'ready');
 });
 
 browserTest(
@@ -186,9 +184,9 @@ browserTest(
   { path: SIMULATED, viewport: 'phone' },
   async ({ page, context }) => {
     await ready(page);
-    await page.locator(host).scrollIntoViewIfNeeded();
+    await host(page).scrollIntoViewIfNeeded();
     const before = await picture(page);
-    const box = await page.locator(host).boundingBox();
+    const box = await host(page).boundingBox();
     assert.ok(box.width <= 390 && box.x >= 0, 'it fits the phone');
     const cdp = await context.newCDPSession(page);
     const touch = (type, x) =>
@@ -218,9 +216,9 @@ browserTest(
   async ({ page }) => {
     await page.waitForSelector('[data-space-problem="no-webgl"]');
     assert.match(await page.locator('[data-space-problem]').innerText(), /no WebGL 2/);
-    await page.locator('[data-action="from-above"]').click();
-    await page.waitForSelector('[data-plot="points"]');
-    assert.match(await page.locator('[data-plot="points"] .alternative').textContent(), /^\d+ detections/);
+    await button(page, 'From above').click();
+    await fromAbove(page).waitFor();
+    assert.match(await fromAbove(page).locator('.alternative').textContent(), /^\d+ detections/);
   },
 );
 
@@ -241,7 +239,7 @@ browserTest('space: graphics that are lost are said to be, and come back', { pat
   await looks(page, before);
   await lose('loseContext');
   await page.waitForSelector('[data-space-problem="lost"]');
-  await page.locator('[data-action="space-again"]').click();
+  await button(space(page), 'Try again').click();
   await ready(page);
 });
 
@@ -260,9 +258,9 @@ browserTest(
       return { nodes, jsEventListeners };
     };
     const again = async () => {
-      await page.locator('[data-action="from-above"]').click();
-      await page.locator('[data-plot="points"]').waitFor();
-      await page.locator('[data-action="in-space"]').click();
+      await button(page, 'From above').click();
+      await fromAbove(page).waitFor();
+      await button(page, '3-D').click();
       await ready(page);
     };
     for (let i = 0; i < 8; i++) await again();
@@ -270,8 +268,8 @@ browserTest(
     for (let i = 0; i < 14; i++) await again();
     let after = await heap();
     // What is to be collected may take another round.
-    for (let i = 0; i < 10 && after.jsEventListeners > before.jsEventListeners; i++) {
-      await page.waitForTimeout(200);
+    for (let i = 0; i < 40 && after.jsEventListeners > before.jsEventListeners; i++) {
+      await twoFrames(page);
       after = await heap();
     }
     assert.equal(await page.locator('.space-canvas canvas').count(), 2, 'the view, and its labels');
@@ -292,8 +290,9 @@ browserTest(
   { path: '#/live?source=board&play=bundled&points=space' },
   async ({ page }) => {
     await ready(page, 'board-points');
-    await page.waitForFunction(() => /\d/.test(document.querySelector('#board-points-words')?.textContent ?? ''));
-    assert.match(await page.locator('#board-points-words').textContent(), /^(\d+ detections|No detections)/);
+    const words = page.locator('#board-points-words');
+    await words.filter({ hasText: /\d/ }).waitFor({ state: 'attached' });
+    assert.match(await words.textContent(), /^(\d+ detections|No detections)/);
   },
 );
 

@@ -2,15 +2,12 @@
 import assert from 'node:assert/strict';
 import { drop, recording } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
+import { combobox, opened, ready } from './page.mjs';
 import { json, setup, studio } from './studio.mjs';
 
 const bin = recording('xwr16xx_crw_dca_module_2018_1015v2.bin');
 const cfg = recording('profile.cfg');
 
-const opened = (page, name) =>
-  page.waitForFunction((wanted) => document.querySelector('.files')?.textContent.includes(wanted), name);
-const ready = (page) =>
-  page.waitForSelector('[aria-busy="false"] [data-table="detections"] [data-field="rangeM"][data-value]');
 const rows = (page) =>
   page
     .locator('[data-table="detections"] tbody [data-field][data-value]')
@@ -68,10 +65,8 @@ browserTest('studio: in any order, and without the board by hand', { path: '#/ca
   // The board is not known without its setup, and can be chosen.
   await drop(page, [{ name: 'other.bin', bytes: bin }, json('other.mmwave.json', studio())]);
   await opened(page, 'other.bin');
-  const alert = page.locator('[role="alert"][data-error]');
-  await alert.waitFor();
-  assert.match(await alert.innerText(), /Virtual array/);
-  await page.locator('select[name="array"]').selectOption('awr1642');
+  assert.match(await page.getByRole('alert').innerText(), /Virtual array/);
+  await combobox(page, 'Virtual array').selectOption('awr1642');
   await ready(page);
   assert.deepEqual(await rows(page), wanted);
 });

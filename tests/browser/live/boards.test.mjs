@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { before } from 'node:test';
 import { init, parseConfig } from 'boresight';
 import { cascadeFiles, configOf, framesOf, ROW } from '../../lib/boards.mjs';
+import { combobox, opened, ready } from '../capture/page.mjs';
 import { drop, parametersWith, recording } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 
@@ -16,10 +17,6 @@ const cfg = (name, buffer) => ({
 
 before(() => init());
 
-const opened = (page, name) =>
-  page.waitForFunction((wanted) => document.querySelector('.files')?.textContent.includes(wanted), name);
-const ready = (page) =>
-  page.waitForSelector('[aria-busy="false"] [data-table="detections"] [data-field="rangeM"][data-value]');
 const detections = (page) =>
   page
     .locator('[data-table="detections"] tbody tr[data-detection] [data-field][data-value]:not([data-field^="board"])')
@@ -33,21 +30,22 @@ browserTest('boards: a wrong order of I and Q, or of lanes, is told and mended',
   await ready(page);
   const right = await detections(page);
   assert.deepEqual(await doubts(page), []);
-  for (const [name, buffer, doubt, control, choice] of [
-    ['swapped.cfg', '-1 0 1 1 0', 'iq-swapped', 'iqOrder', 'auto'],
-    ['lanes.cfg', '-1 0 0 0 0', 'other-lanes', 'lanes', 'two'],
+  for (const [name, buffer, doubt, label, key, choice] of [
+    ['swapped.cfg', '-1 0 1 1 0', 'iq-swapped', 'Order of I and Q', 'iqOrder', 'auto'],
+    ['lanes.cfg', '-1 0 0 0 0', 'other-lanes', 'Lanes of the board', 'lanes', 'two'],
   ]) {
+    const control = combobox(page, label);
     await drop(page, [bin, cfg(name, buffer)]);
     await opened(page, name);
     await page.waitForSelector(`[data-doubt="${doubt}"]`);
     await ready(page);
     assert.notDeepEqual(await detections(page), right);
-    await page.locator(`select[name="${control}"]`).selectOption(choice);
+    await control.selectOption(choice);
     await page.waitForSelector(`[data-doubt="${doubt}"]`, { state: 'detached' });
     await ready(page);
     assert.deepEqual(await detections(page), right);
-    await parametersWith(page, (parameters) => parameters.get(control) === choice);
-    await page.locator(`select[name="${control}"]`).selectOption('configured');
+    await parametersWith(page, (parameters) => parameters.get(key) === choice);
+    await control.selectOption('configured');
     await page.waitForSelector(`[data-doubt="${doubt}"]`);
   }
 });
@@ -76,9 +74,6 @@ browserTest('boards: the files of a cascade make one capture', { path }, async (
     [[...files, bin], 'mine.bin'],
   ]) {
     await drop(page, [...wrong, config]);
-    await page.waitForFunction(
-      (wanted) => document.querySelector('[role="alert"][data-error]')?.textContent.includes(wanted),
-      says,
-    );
+    await page.getByRole('alert').filter({ hasText: says }).waitFor();
   }
 });

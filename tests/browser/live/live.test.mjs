@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { startBridge } from '../../lib/bridge.mjs';
 import { fakeSerial, feedRecording } from '../../lib/fake-serial.mjs';
+import { button, combobox, region, spinbutton, twoFrames } from '../capture/page.mjs';
 import { drop, parametersWith, recording, saved } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { typeText } from '../lib/type.mjs';
@@ -23,6 +24,9 @@ const counts = (page) =>
     );
 const countIs = (page, fact, value) =>
   page.waitForSelector(`[data-facts="live"] [data-fact="${fact}"][data-value="${value}"]`);
+/** The bar of what is live. */
+const live = (page) => region(page, 'Live');
+const press = (page, name) => button(page, name).click();
 const stateIs = (page, state) => page.waitForSelector(`[data-live-state="${state}"]`);
 
 /** Gives a page ports ahead of its own scripts: `ports.command` answers, but to what it refuses, and `ports.data` is fed. */
@@ -49,11 +53,11 @@ const feed = (page, bytes, options = {}) =>
   page.evaluate(([base64, given]) => globalThis.feed(base64, given), [Buffer.from(bytes).toString('base64'), options]);
 
 async function connected(page) {
-  await page.locator('[data-action="choose-command"]').click();
+  await press(page, 'Command port');
   await page.locator('[data-port="command"]').getByText('USB 0451:bef3').waitFor();
-  await page.locator('[data-action="choose-data"]').click();
+  await press(page, 'Data port');
   await page.locator('[data-port="data"]').getByText('USB 0451:bef3').waitFor();
-  await page.locator('[data-action="connect"]').click();
+  await press(page, 'Connect');
 }
 
 browserTest('live: a board’s bytes give the counts of its recording', { path: '#/live', before }, async ({ page }) => {
@@ -62,7 +66,7 @@ browserTest('live: a board’s bytes give the counts of its recording', { path: 
   await countIs(page, 'bytes', dat.length);
   // The recording ends inside its last packet, which is whole or not only once the port is closed.
   assert.equal((await counts(page)).frames, 249);
-  await page.locator('[data-action="disconnect"]').click();
+  await press(page, 'Disconnect');
   await stateIs(page, 'ended');
   const all = await counts(page);
   assert.deepEqual(
@@ -73,10 +77,10 @@ browserTest('live: a board’s bytes give the counts of its recording', { path: 
   assert.match(told, /^[1-9]\d* detections/);
   for (const plot of ['board-points', 'board-profile'])
     await page.locator(`[data-plot="${plot}"] .plot canvas`).first().waitFor();
-  const file = await saved(page, '[data-action="save-dat"]');
+  const file = await saved(page, button(live(page), 'Save .dat'));
   assert.match(file.name, /^boresight-live-.*\.dat$/);
   assert.deepEqual(file.bytes, dat);
-  assert.deepEqual((await saved(page, '[data-action="save-cfg"]')).bytes, cfg);
+  assert.deepEqual((await saved(page, button(page, 'Save .cfg'))).bytes, cfg);
 });
 
 browserTest(
@@ -92,7 +96,7 @@ browserTest(
     ];
     await feed(page, dat, { errors });
     await countIs(page, 'bytes', dat.length - 14);
-    await page.locator('[data-action="disconnect"]').click();
+    await press(page, 'Disconnect');
     await stateIs(page, 'ended');
     const all = await counts(page);
     assert.deepEqual([all.framingErrors, all.breaks, all.overruns], [2, 1, 1]);
@@ -118,24 +122,28 @@ browserTest(
     await feed(page, dat.subarray(50_000, 100_000));
     await countIs(page, 'bytes', 100_000);
     // Another port takes over, and nothing was lost on the way.
-    await page.locator('[data-action="choose-data"]').click();
+    await press(page, 'Data port');
     await feed(page, dat.subarray(100_000), { port: 'spare' });
     await countIs(page, 'bytes', dat.length);
-    await page.locator('[data-action="disconnect"]').click();
+    await press(page, 'Disconnect');
     await stateIs(page, 'ended');
     const all = await counts(page);
     assert.deepEqual([all.frames, all.damagedPackets, all.losses], [250, 1, 1]);
     // Whoever is asked for a port may choose none.
-    await page.locator('[data-action="choose-data"]').click();
+    await press(page, 'Data port');
+    await twoFrames(page);
     assert.equal(await page.locator('[data-error]').count(), 0);
   },
 );
 
+const hasExample = (page) =>
+  page.waitForFunction(() => document.querySelector('textarea').value.includes('sensorStart'));
+
 browserTest('live: a configuration is sent line by line', { path: '#/live', before }, async ({ page }) => {
   await connected(page);
-  const field = page.locator('textarea[name="cfg"]');
-  await page.waitForFunction(() => document.querySelector('textarea[name="cfg"]').value.includes('sensorStart'));
-  await page.locator('[data-action="send"]').click();
+  const field = page.getByLabel('Configuration, a command a line');
+  await hasExample(page);
+  await press(page, 'Send configuration');
   const lines = cfg
     .toString()
     .split(/\r?\n/)
@@ -160,8 +168,8 @@ browserTest(
   { path: '#/live', before: withPorts({ refuse: 'chirpCfg' }) },
   async ({ page }) => {
     await connected(page);
-    await page.waitForFunction(() => document.querySelector('textarea[name="cfg"]').value.includes('sensorStart'));
-    await page.locator('[data-action="send"]').click();
+    await hasExample(page);
+    await press(page, 'Send configuration');
     const told = page.locator('[data-error="command-refused"]');
     await told.waitFor();
     assert.match(await told.textContent(), /line \d+, chirpCfg .* is Error -1; expected Done/);
@@ -173,10 +181,11 @@ browserTest(
   'live: a recording comes the same way, from the demo, a drop and a link',
   { path: '#/live' },
   async ({ page }) => {
-    await page.locator('[data-action="replay-now"]').click();
+    await press(page, 'Replay the bundled recording');
     await stateIs(page, 'open');
     await page.locator('[data-plot="board-points"]').waitFor();
-    await page.locator('[data-action="pause"]').click();
+    await press(live(page), 'Pause');
+    await button(live(page), 'Go on').waitFor();
     const detail = () => page.locator('[data-plot="board-points"]').getAttribute('detail');
     const [shown, before] = [await detail(), (await counts(page)).frames];
     await page.waitForFunction(
@@ -184,11 +193,11 @@ browserTest(
       before,
     );
     assert.equal(await detail(), shown, 'the picture stays');
-    await page.locator('[data-action="pause"]').click();
-    await page.locator('[data-action="stop"]').click();
+    await press(live(page), 'Go on');
+    await press(live(page), 'Stop');
     await stateIs(page, 'ended');
     assert.ok((await counts(page)).frames < 250);
-    await page.locator('select[name="pace"]').selectOption('fast');
+    await combobox(page, 'Pace').selectOption('fast');
     await parametersWith(page, (params) => params.get('pace') === 'fast');
     await drop(page, [{ name: 'own.dat', bytes: dat }]);
     await countIs(page, 'frames', 250);
@@ -210,7 +219,7 @@ browserTest(
       .locator('[data-notice="no-serial"]')
       .getByText(/Chrome, Edge/)
       .waitFor();
-    await page.locator('[data-action="replay"]').click();
+    await press(page, 'Bundled recording');
     await page.locator('[data-plot="board-points"]').waitFor();
   },
 );
@@ -298,12 +307,13 @@ browserTest(
     const capture = new Capture(recording('xwr16xx_crw_dca_module_2018_1015v2.bin'), cfg);
     const running = await startBridge();
     try {
-      await typeText(page.locator('input[name="bridge"]'), String(running.port));
-      await page.locator('[data-action="connect-bridge"]').click();
+      await typeText(spinbutton(page, 'Port'), String(running.port));
+      await press(page, 'Connect');
       const seen = new Set();
       while (seen.size < 3) {
         await page.locator('[data-table="raw-detections"] td').first().waitFor();
-        await page.locator('[data-action="pause"]').click();
+        await press(live(page), 'Pause');
+        await button(live(page), 'Go on').waitFor();
         const { frame, rows } = await page.locator('[data-table="raw-detections"]').evaluate((table) => ({
           frame: Number(table.dataset.frame),
           rows: [...table.querySelectorAll('tbody tr')].map((row) =>
@@ -323,7 +333,7 @@ browserTest(
           `frame ${frame}`,
         );
         seen.add(frame);
-        await page.locator('[data-action="pause"]').click();
+        await press(live(page), 'Go on');
       }
       assert.ok((await counts(page)).processed >= 3);
     } finally {
@@ -341,7 +351,7 @@ browserTest(
   'live: a bridge that is not there is told',
   { path: '#/live?source=raw&bridge=9', sockets },
   async ({ page, problems }) => {
-    await page.locator('[data-action="connect-bridge"]').click();
+    await press(page, 'Connect');
     await page.locator('[data-error="bridge-not-reached"]').waitFor();
     // The browser itself says so too.
     assert.match(problems.splice(0).join(), /ws:\/\/127\.0\.0\.1:9/);

@@ -1,5 +1,6 @@
 /** Every field of numbers of every page takes what is typed, and nothing that was not. */
 import assert from 'node:assert/strict';
+import { button, spinbutton } from '../capture/page.mjs';
 import { parametersWith, values } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { pages } from '../lib/pages.mjs';
@@ -27,10 +28,10 @@ const done = new Map();
 
 for (const { name, path } of tried) {
   browserTest(`${name}: numbers are typed key by key`, { path }, async ({ page }) => {
-    const fields = page.locator('input[role="spinbutton"]:visible:enabled');
+    const fields = page.getByRole('spinbutton', { disabled: false });
     await fields.first().waitFor();
     // What a radar of the drive brings comes with the drive.
-    if (path.startsWith('#/mounting')) await page.waitForSelector('input[name="xM"]');
+    if (path.startsWith('#/mounting')) await spinbutton(page, 'Ahead of rear axle').waitFor();
     const shut = page.locator('details.group:not([open]) > summary');
     while ((await shut.count()) > 0) await shut.first().click();
     const names = await fields.evaluateAll((list) => list.map((input) => input.name));
@@ -42,6 +43,7 @@ for (const { name, path } of tried) {
     const known = done.get(of) ?? done.set(of, new Set()).get(of);
     for (const field of names) {
       if (known.has(field)) continue;
+      // All of them, whatever their labels: those come and go as others change.
       await tryField(page.locator(`input[name="${field}"]`));
       known.add(field);
     }
@@ -95,12 +97,12 @@ browserTest(
   'angle lab: a typed target is the one that is estimated',
   { path: '#/angle?targets=-5:0&methods=music' },
   async ({ page }) => {
-    const azimuth = page.locator('input[name="azimuth-0"]');
+    const azimuth = spinbutton(page, 'Azimuth of target 1, degrees');
     for (const text of ['1.5', '-7.25', '0.5']) {
       await typeNumber(azimuth, text);
       await parametersWith(page, (params) => params.get('targets') === `${text}:0`);
     }
-    await typeNumber(page.locator('input[name="power-0"]'), '-0.05');
+    await typeNumber(spinbutton(page, 'Power of target 1, dB'), '-0.05');
     await parametersWith(page, (params) => params.get('targets') === '0.5:-0.05');
     await leave(azimuth);
     await page.waitForFunction(() => Number(document.querySelector('[data-field="truth"]')?.dataset.value) === 0.5);
@@ -121,15 +123,16 @@ browserTest(
 );
 
 browserTest('angle lab: a group stays open while its error is typed', { path: '#/angle?gain=2' }, async ({ page }) => {
-  await typeNumber(page.locator('input[name="gain"]'), '0.5');
+  await typeNumber(spinbutton(page, 'Gain error'), '0.5');
   await parametersWith(page, (params) => params.get('gain') === '0.5');
 });
 
 browserTest('angle lab: another state is not hidden by what was typed', { path: '#/angle?snr=7' }, async ({ page }) => {
-  const snr = page.locator('input[name="snr"]');
+  const snr = spinbutton(page, 'SNR');
   await typeNumber(snr, '999');
   assert.equal(await snr.getAttribute('aria-invalid'), 'true');
-  await page.getByRole('button', { name: 'Defaults' }).click();
-  await page.waitForFunction(() => document.querySelector('input[name="snr"]').value === '20');
+  await button(page, 'Defaults').click();
+  await parametersWith(page, (params) => params.get('snr') === '20');
+  assert.equal(await snr.inputValue(), '20');
   assert.equal(await snr.getAttribute('aria-invalid'), null);
 });

@@ -2,14 +2,17 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { button, combobox, figure, frameSlider, opened, ready, spinbutton } from '../capture/page.mjs';
 import { drop, parameters, parametersWith, recording, recordings, reload } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 
 const bin = recording('xwr16xx_crw_dca_module_2018_1015v2.bin');
 const cfg = recording('profile.cfg');
-const opened = (page, name) =>
-  page.waitForFunction((wanted) => document.querySelector('.files')?.textContent.includes(wanted), name);
-const processed = (page) => page.waitForSelector('[aria-busy="false"] [data-table="detections"]');
+const notice = (page, name) => page.locator(`[data-notice="${name}"]`);
+async function putAway(page, name) {
+  await button(notice(page, name), 'Put this message away').click();
+  await notice(page, name).waitFor({ state: 'detached' });
+}
 const doubts = (page) => page.locator('[data-doubt]').evaluateAll((lines) => lines.map(({ dataset }) => dataset.doubt));
 
 /** Bytes without a pattern, always the same (xorshift). */
@@ -34,7 +37,7 @@ function louder(samples, times) {
 }
 
 browserTest('files: what is no capture is doubted above the plots', { path: '#/capture' }, async ({ page }) => {
-  await processed(page);
+  await ready(page);
   assert.deepEqual(await doubts(page), [], 'the bundled capture is not doubted');
   const picture = noise(bin.length);
   picture.write('\x89PNG', 0, 'latin1');
@@ -53,7 +56,7 @@ browserTest('files: what is no capture is doubted above the plots', { path: '#/c
     await page.waitForSelector(`[data-doubt="${expected[0]}"]`);
     assert.deepEqual(await doubts(page), expected, name);
     const box = await page.locator('.doubts').boundingBox();
-    const plot = await page.locator('[data-plot="range-doppler"]').boundingBox();
+    const plot = await figure(page, 'Range-Doppler map').boundingBox();
     assert.ok(box.y + box.height <= plot.y, 'above the plots');
     assert.match(await page.locator('.doubts').innerText(), says);
   }
@@ -91,7 +94,7 @@ browserTest(
   'files: a .cfg of other chirps is doubted though its frames fit the file',
   { path: '#/capture' },
   async ({ page }) => {
-    await processed(page);
+    await ready(page);
     // A frame has as many bytes by each of them.
     for (const [name, changes] of [
       [
@@ -133,34 +136,35 @@ browserTest(
       { name: 'mine.cfg', bytes: cfg },
     ]);
     await opened(page, 'moving.bin');
-    await processed(page);
+    await ready(page);
     assert.deepEqual(await doubts(page), [], 'what moves is not doubted for it');
   },
 );
 
 browserTest('files: a link to one’s own capture waits for it', { path: '#/capture' }, async ({ page, context }) => {
-  await processed(page);
+  await ready(page);
   const files = [
     { name: 'mine.bin', bytes: bin },
     { name: 'mine.cfg', bytes: cfg },
   ];
   await drop(page, files);
   await opened(page, 'mine.bin');
-  await processed(page);
-  await page.locator('input[name="frame"]').press('ArrowRight');
+  await ready(page);
+  await frameSlider(page).press('ArrowRight');
   await parametersWith(page, (params) => params.get('source') === 'files' && params.get('frame') !== 'all');
   const { frame } = Object.fromEntries(parameters(page));
   const other = await context.newPage();
   await other.goto(page.url());
-  await other.waitForSelector('[data-notice="files"]');
-  await other.waitForTimeout(500);
+  await notice(other, 'files').waitFor();
+  // What would be shown in its place would be fetched.
+  await other.waitForLoadState('networkidle');
   assert.equal(await other.locator('[data-table="detections"]').count(), 0, 'nothing else is shown in its place');
   await drop(other, files);
-  await processed(other);
+  await ready(other);
   assert.equal(parameters(other).get('frame'), frame, 'with the settings of the link');
-  assert.equal(await other.locator('[data-notice="files"]').count(), 0);
+  assert.equal(await notice(other, 'files').count(), 0);
   await reload(page);
-  await page.locator('[data-notice="files"] button').click();
+  await button(page, 'open the bundled capture').click();
   await opened(page, 'xwr16xx');
   await parametersWith(page, (params) => (params.get('source') ?? 'bundled') === 'bundled');
 });
@@ -168,26 +172,22 @@ browserTest('files: a link to one’s own capture waits for it', { path: '#/capt
 browserTest('files: dropped on another page they open where they belong', { path: '#/angle' }, async ({ page }) => {
   await page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');
   await drop(page, [{ name: 'holiday.jpg', bytes: Buffer.from([1, 2, 3]) }]);
-  await page.waitForSelector('[data-notice="drop"]');
-  assert.match(await page.locator('[data-notice="drop"]').innerText(), /holiday\.jpg.*\.bin.*\.csv.*\.onnx/s);
+  assert.match(await notice(page, 'drop').innerText(), /holiday\.jpg.*\.bin.*\.csv.*\.onnx/s);
   assert.match(page.url(), /#\/angle/);
-  await page.locator('[data-notice="drop"] button').click();
-  assert.equal(await page.locator('[data-notice="drop"]').count(), 0);
+  await putAway(page, 'drop');
   await drop(page, [
     { name: 'mine.bin', bytes: bin },
     { name: 'mine.cfg', bytes: cfg },
   ]);
   await opened(page, 'mine.bin');
   assert.match(page.url(), /#\/capture/);
-  await processed(page);
+  await ready(page);
   const delphi = recordings('delphi');
   await drop(
     page,
     ['front_radar.csv.gz', 'pose_10hz.csv.gz'].map((name) => ({ name, bytes: readFileSync(join(delphi, name)) })),
   );
-  await page.waitForFunction(() =>
-    /own files/.test(document.querySelector('select[name="source"]')?.textContent ?? ''),
-  );
+  await combobox(page, 'Drive').filter({ hasText: 'own files' }).waitFor();
   await opened(page, 'front_radar.csv.gz');
   assert.match(page.url(), /#\/mounting/);
 });
@@ -196,13 +196,11 @@ browserTest(
   'files: what a link says that cannot be read is named, and put away',
   { path: '#/angle?snr=abc&colour=red&snapshots=50' },
   async ({ page }) => {
-    await page.waitForSelector('[data-notice="link"]');
-    const text = await page.locator('[data-notice="link"]').innerText();
+    const text = await notice(page, 'link').innerText();
     assert.match(text, /snr=abc/);
     assert.match(text, /colour=red/);
     assert.doesNotMatch(text, /snapshots/);
-    await page.locator('[data-notice="link"] button').click();
-    assert.equal(await page.locator('[data-notice="link"]').count(), 0);
-    assert.equal(await page.locator('input[name="snapshots"]').inputValue(), '50');
+    await putAway(page, 'link');
+    assert.equal(await spinbutton(page, 'Snapshots').inputValue(), '50');
   },
 );

@@ -1,5 +1,6 @@
 /** Results stand only beside the inputs they were computed from, in tables, plots and files. */
 import assert from 'node:assert/strict';
+import { button, cells, checkbox, combobox, figure, region, spinbutton } from '../capture/page.mjs';
 import { assertJson, saved, values } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { cell, patient, tried } from '../lib/trial.mjs';
@@ -22,9 +23,10 @@ const release = (page) => page.evaluate(() => window.release());
 
 const RESULTS = '[data-table="results"]';
 const csvOf = async (page, table) => {
-  const { bytes } = await saved(page, `${table} [data-export="csv"]`);
+  const { bytes } = await saved(page, button(page.locator(table), 'CSV'));
   return bytes.toString('utf8').trim().split('\n').slice(1);
 };
+const azimuth = (page) => spinbutton(page, 'Azimuth of target 1, degrees');
 const row = (table, method) => `${table} [data-row="${method}"]`;
 
 browserTest(
@@ -38,7 +40,7 @@ browserTest(
     const found = (method) => `${row(RESULTS, method)} [data-field="error"][data-target="0"][data-value]`;
     for (const method of slow) await page.waitForSelector(found(method));
     await hold(page);
-    await typeNumber(page.getByLabel('Azimuth of target 1'), '-7');
+    await typeNumber(azimuth(page), '-7');
     await page.waitForSelector('[data-field="truth"][data-target="0"][data-value="-7"]');
     for (const method of slow) {
       await page.waitForSelector(`${row(RESULTS, method)}[aria-busy="true"]`);
@@ -50,7 +52,7 @@ browserTest(
       const [method, , truth, , azimuth] = line.split(',');
       assert.ok(!slow.includes(method) && Math.abs(azimuth - truth) < 0.5, line);
     }
-    const spectra = await saved(page, '[data-plot="spectrum"] [data-export="csv"]');
+    const spectra = await saved(page, button(figure(page, 'Angle spectrum'), 'CSV'));
     assert.doesNotMatch(spectra.bytes.toString('utf8').split('\n')[0], /sparse_bayesian/);
     await release(page);
     for (const method of slow) {
@@ -67,12 +69,12 @@ browserTest(
   async ({ page }) => {
     await page.waitForSelector(`${row(RESULTS, 'music')} [data-field="error"][data-value]`);
     const plot = page.locator('[data-plot="sweep-error"]');
-    await page.locator('[data-sweep]').getByRole('button', { name: 'Run' }).click();
+    await button(region(page, 'Monte Carlo'), 'Run').click();
     await page.waitForSelector('[data-sweep][aria-busy="false"] [data-plot="sweep-error"]', patient);
-    await typeNumber(page.getByLabel('Azimuth of target 1'), '-7');
+    await typeNumber(azimuth(page), '-7');
     await page.getByText('The last runs are of other settings').waitFor();
     assert.equal(await plot.count(), 0);
-    await page.getByRole('button', { name: 'Undo' }).click();
+    await button(page, 'Undo').click();
     await plot.waitFor();
   },
 );
@@ -84,7 +86,7 @@ browserTest(
     const found = `${row('[data-table="cell"]', 'bartlett')} [data-field="azimuth"][data-value]`;
     await page.waitForSelector(found);
     await hold(page);
-    await page.locator('[data-detection]:not([data-detection="board"]) .cell-button').nth(2).click();
+    await cells(page).nth(2).click();
     await page.waitForSelector(`${row('[data-table="cell"]', 'bartlett')}[aria-busy="true"]`);
     assert.equal(await page.locator(found).count(), 0);
     await release(page);
@@ -99,10 +101,10 @@ browserTest(
     const found = `${row(RESULTS, 'least-squares')} [data-field="angleDeg"][data-value]`;
     await page.waitForSelector(found, patient);
     await hold(page);
-    await typeNumber(page.locator('input[name="minSpeed"]'), '10');
+    await typeNumber(spinbutton(page, 'Slowest'), '10');
     await page.waitForSelector(`${row(RESULTS, 'least-squares')}[aria-busy="true"]`);
     assert.equal(await page.locator(found).count(), 0);
-    const { options, methods } = assertJson(await saved(page, `${RESULTS} [data-export="json"]`));
+    const { options, methods } = assertJson(await saved(page, button(page.locator(RESULTS), 'JSON')));
     assert.equal(options.minSpeedMps ?? options.minSpeed, 10);
     assert.deepEqual(methods, []);
     assert.deepEqual(await csvOf(page, RESULTS), []);
@@ -118,15 +120,10 @@ browserTest(
     const found = (method) => `${row(RESULTS, method)} [data-field="cells"][data-value]`;
     await page.waitForSelector(found('bartlett'), patient);
     await hold(page);
-    await page
-      .locator('#method-fft')
-      .or(page.locator('#method-capon'))
-      .or(page.locator('#method-nomp'))
-      .first()
-      .check();
+    await checkbox(page, 'NOMP').check();
     await page.waitForSelector(`${RESULTS} [data-row][aria-busy="true"]`);
     assert.equal(await page.locator(found('bartlett')).count(), 1, 'the image that is there stays');
-    await page.locator('select[name="cell"]').selectOption('0.2');
+    await combobox(page, 'Cell').selectOption('0.2');
     await page.waitForSelector(`${row(RESULTS, 'bartlett')}[aria-busy="true"]`);
     assert.equal(await page.locator(found('bartlett')).count(), 0);
     assert.deepEqual(await csvOf(page, RESULTS), []);
@@ -178,7 +175,7 @@ browserTest(
         method,
       );
     await hold(page);
-    await typeNumber(page.locator('input[name="seed"]'), '4');
+    await typeNumber(spinbutton(page, 'Seed'), '4');
     await table.waitFor({ state: 'detached' });
     await release(page);
     await page.waitForSelector('[data-attempt*="seed 4"]', patient);

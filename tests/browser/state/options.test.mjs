@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from '../../../scripts/lib/paths.mjs';
+import { checkbox, spinbutton } from '../capture/page.mjs';
 import { browserTest } from '../lib/harness.mjs';
 
 const { $defs } = JSON.parse(readFileSync(join(root, 'web', 'lib', 'generated', 'schema.json'), 'utf8'));
@@ -63,8 +64,8 @@ for (const page of Object.keys(DIFFERENCES)) {
     { path: `#/${page}${STATES[page]}` },
     async ({ page: tab }) => {
       await tab.locator('[data-option]').first().waitFor();
-      if (page === 'capture') await tab.waitForSelector('input[name="exactRanges"]');
-      if (page === 'mounting') await tab.waitForSelector('input[name="xM"]');
+      if (page === 'capture') await checkbox(tab, 'Ranges are exact').waitFor();
+      if (page === 'mounting') await spinbutton(tab, 'Ahead of rear axle').waitFor();
       const controls = await tab.locator('[data-option]').evaluateAll((list) =>
         list.map((one) => {
           const control = one.querySelector('input, select');

@@ -3,9 +3,11 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { strFromU8, strToU8, unzipSync, zipSync } from 'fflate';
+import { button, choose, combobox, frameSlider, opened, ready, spinbutton } from '../capture/page.mjs';
 import { drop, parameters, parametersWith, recording, recordings, saved } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { leave, typeNumber } from '../lib/type.mjs';
+import { later } from './undo.mjs';
 
 const bin = recording('xwr16xx_crw_dca_module_2018_1015v2.bin');
 const cfg = recording('profile.cfg');
@@ -13,26 +15,18 @@ const own = [
   { name: 'mine.bin', bytes: bin },
   { name: 'mine.cfg', bytes: cfg },
 ];
-const SAVE = '[data-action="save-session"]';
-const NOTICE = '[data-notice="session"]';
+/** A button of sessions; phones leave the second word out. */
+const session = (page, name) =>
+  page.getByRole('group', { name: 'Session', exact: true }).getByRole('button', { name: new RegExp(`^${name}`) });
+const save = (page) => saved(page, session(page, 'Save'));
 const calculated = (page) => page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');
-const processed = (page) => page.waitForSelector('[aria-busy="false"] [data-table="detections"]');
-const open = (page, name) =>
-  page.waitForFunction((wanted) => document.querySelector('.files')?.textContent.includes(wanted), name);
-const go = (page, title) => page.locator('nav a', { hasText: title }).click();
+const go = (page, name) => page.getByRole('navigation').getByRole('link', { name }).click();
+const hasNetwork = (page) => page.locator('[data-card="own:mine.onnx"]').waitFor({ timeout: 90_000 });
 const index = (bytes) => JSON.parse(strFromU8(unzipSync(bytes)['session.json']));
 
-async function choose(page, name, bytes) {
-  const [chooser] = await Promise.all([
-    page.waitForEvent('filechooser'),
-    page.locator('[data-action="open-session"]').click(),
-  ]);
-  await chooser.setFiles({ name, mimeType: 'application/octet-stream', buffer: Buffer.from(bytes) });
-}
-
 async function withSnr(page, text) {
-  await typeNumber(page.locator('input[name="snr"]'), text);
-  await leave(page.locator('input[name="snr"]'));
+  await typeNumber(spinbutton(page, 'SNR'), text);
+  await leave(spinbutton(page, 'SNR'));
   await parametersWith(page, (params) => params.get('snr') === text);
 }
 
@@ -41,11 +35,11 @@ async function sessionOf(page) {
   await calculated(page);
   await withSnr(page, '13.5');
   await drop(page, own);
-  await open(page, 'mine.bin');
-  await processed(page);
-  await page.locator('input[name="frame"]').press('ArrowRight');
+  await opened(page, 'mine.bin');
+  await ready(page);
+  await frameSlider(page).press('ArrowRight');
   await parametersWith(page, (params) => params.get('frame') !== 'all');
-  return saved(page, SAVE);
+  return save(page);
 }
 
 browserTest(
@@ -64,11 +58,10 @@ browserTest(
     const context = await browser.newContext();
     const other = await context.newPage();
     await other.goto(`${url}#/networks`);
-    await other.waitForSelector('[data-action="open-session"]:enabled');
-    await choose(other, name, bytes);
-    await other.waitForFunction(() => location.hash.startsWith('#/capture'));
-    await open(other, 'mine.bin');
-    await processed(other);
+    await choose(other, session(other, 'Open'), [{ name, bytes }]);
+    await other.waitForURL(/#\/capture/);
+    await opened(other, 'mine.bin');
+    await ready(other);
     await parametersWith(other, (params) => params.get('frame') === frame && params.get('source') === 'files');
     assert.equal(await other.locator('[data-notice]').count(), 0);
     await go(other, 'Angle lab');
@@ -82,12 +75,13 @@ browserTest(
   { path: '#/angle', viewport: 'phone' },
   async ({ page }) => {
     await calculated(page);
-    const { bytes } = await saved(page, SAVE);
+    const { bytes } = await save(page);
     await page.evaluate(() => {
       location.hash = '#/angle?snr=3';
     });
-    await parametersWith(page, (params) => params.get('snr') === '3');
-    await page.waitForTimeout(900);
+    // With the other parameters, which the page writes behind it.
+    await parametersWith(page, (params) => params.get('snr') === '3' && params.has('seed'));
+    await later(page);
     // No file would be lost: it opens at once, and Undo takes it back.
     await drop(page, [{ name: 'lab.boresight', bytes }]);
     await parametersWith(page, (params) => params.get('snr') === '20');
@@ -95,25 +89,25 @@ browserTest(
     await parametersWith(page, (params) => params.get('snr') === '3');
 
     await drop(page, own);
-    await open(page, 'mine.bin');
-    await processed(page);
+    await opened(page, 'mine.bin');
+    await ready(page);
     await drop(page, [{ name: 'lab.boresight', bytes }]);
-    const question = page.locator('dialog[open]');
+    const question = page.getByRole('dialog', { name: 'Replace your own files?' });
     await question.waitFor();
     assert.match(await question.innerText(), /lab\.boresight.*mine\.bin, mine\.cfg/s);
-    assert.equal(await page.evaluate(() => document.activeElement.dataset.action), 'replace', 'the keyboard is in it');
+    assert.equal(await page.locator(':focus').innerText(), 'Open the session', 'the keyboard is in it');
     await page.keyboard.press('Escape');
     await question.waitFor({ state: 'hidden' });
     assert.match(page.url(), /#\/capture/);
-    await open(page, 'mine.bin');
+    await opened(page, 'mine.bin');
 
     await drop(page, [{ name: 'lab.boresight', bytes }]);
     await question.waitFor();
     await page.keyboard.press('Enter');
-    await page.waitForFunction(() => location.hash.startsWith('#/angle'));
+    await page.waitForURL(/#\/angle/);
     await parametersWith(page, (params) => params.get('snr') === '20');
     await go(page, 'Capture');
-    await open(page, 'xwr16xx');
+    await opened(page, 'xwr16xx');
     await parametersWith(page, (params) => (params.get('source') ?? 'bundled') === 'bundled');
   },
 );
@@ -126,14 +120,14 @@ browserTest(
       name,
       bytes: readFileSync(join(recordings('delphi'), name)),
     }));
-    await page.waitForSelector('[data-action="save-session"]:enabled');
+    await session(page, 'Save').and(page.locator(':enabled')).waitFor();
     await drop(page, drive);
-    await open(page, 'front_radar.csv.gz');
-    await page.waitForFunction(() => document.querySelector('select[name="source"]')?.value === 'files');
+    await opened(page, 'front_radar.csv.gz');
+    await combobox(page, 'Drive').locator('option:checked', { hasText: 'own files' }).waitFor({ state: 'attached' });
     const model = readFileSync(new URL('../../../models/learned-pursuit.onnx', import.meta.url));
     await drop(page, [{ name: 'mine.onnx', bytes: model }]);
-    await page.waitForSelector('[data-card="own:mine.onnx"]', { timeout: 90_000 });
-    const { bytes } = await saved(page, SAVE);
+    await hasNetwork(page);
+    const { bytes } = await save(page);
     assert.deepEqual(
       index(bytes).files.map(({ page, name, bytes }) => [page, name, bytes]),
       [...drive.map(({ name, bytes }) => ['mounting', name, bytes.length]), ['networks', 'mine.onnx', model.length]],
@@ -143,9 +137,9 @@ browserTest(
     await other.goto(`${url}#/angle`);
     await calculated(other);
     await drop(other, [{ name: 'all.boresight', bytes }]);
-    await other.waitForSelector('[data-card="own:mine.onnx"]', { timeout: 90_000 });
+    await hasNetwork(other);
     await go(other, 'Mounting angle');
-    await open(other, 'front_radar.csv.gz');
+    await opened(other, 'front_radar.csv.gz');
     await parametersWith(other, (params) => params.get('source') === 'files');
     await context.close();
   },
@@ -158,6 +152,7 @@ browserTest(
     const { bytes } = await sessionOf(page);
     const archive = unzipSync(bytes);
     const before = parameters(page).toString();
+    const notice = page.locator('[data-notice="session"]');
     const changed = (patch) => ({
       ...archive,
       'session.json': strToU8(JSON.stringify({ ...index(bytes), ...patch })),
@@ -179,21 +174,20 @@ browserTest(
       ['index.boresight', zipSync({ 'session.json': new Uint8Array(2 * 1024 * 1024) }), /damaged: session\.json has/],
     ]) {
       await drop(page, [{ name, bytes: content }]);
-      await page.waitForSelector(NOTICE);
-      const text = await page.locator(NOTICE).innerText();
+      const text = await notice.innerText();
       assert.match(text, /^The session was not opened\./, name);
       assert.match(text, says, name);
-      await page.locator(`${NOTICE} button`).click();
-      assert.equal(await page.locator('dialog[open]').count(), 0, name);
+      await button(notice, 'Put this message away').click();
+      await notice.waitFor({ state: 'detached' });
+      assert.equal(await page.getByRole('dialog').count(), 0, name);
       assert.equal(parameters(page).toString(), before, name);
-      await open(page, 'mine.bin');
+      await opened(page, 'mine.bin');
     }
     await drop(page, [
       { name: 'a.boresight', bytes },
       { name: 'b.boresight', bytes },
     ]);
-    await page.waitForSelector(NOTICE);
-    assert.match(await page.locator(NOTICE).innerText(), /alone/);
+    assert.match(await notice.innerText(), /alone/);
   },
 );
 

@@ -3,6 +3,7 @@ import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
+import { twoFrames } from '../capture/page.mjs';
 import { skipWithoutBrowser } from '../lib/harness.mjs';
 import { launch, openPage, serve } from '../lib/session.mjs';
 
@@ -37,11 +38,14 @@ after(async () => {
   if (folder) rmSync(folder, { recursive: true });
 });
 
-const problemsOf = async (path) => {
-  const opened = await openPage(browser, server.url, { path });
-  await opened.page.waitForTimeout(300);
-  await opened.close();
-  return opened.problems;
+/** Problems of a page once one matches; without a pattern once the page rests. */
+const problemsOf = async (path, pattern) => {
+  const { page, problems, close } = await openPage(browser, server.url, { path });
+  await page.waitForLoadState('networkidle');
+  for (let tries = 0; pattern && tries < 200 && !problems.some((problem) => pattern.test(problem)); tries++)
+    await twoFrames(page);
+  await close();
+  return problems;
 };
 
 test('a page without problems has none', options, async () => {
@@ -58,7 +62,7 @@ const expected = {
 };
 for (const [path, pattern] of Object.entries(expected)) {
   test(`${path} is reported`, options, async () => {
-    const problems = await problemsOf(path);
+    const problems = await problemsOf(path, pattern);
     assert.ok(
       problems.some((problem) => pattern.test(problem)),
       `${JSON.stringify(problems)} should hold ${pattern}`,
