@@ -15,7 +15,7 @@ import {
   neural,
 } from './build.mjs';
 import { browserMissing, findBrowser } from './lib/browser.mjs';
-import { environment, root } from './lib/paths.mjs';
+import { environment, root, wasmTarget } from './lib/paths.mjs';
 import { main, runTee } from './lib/run.mjs';
 import { cargoCounts, checkCounts, nodeCounts, passedOnRetry, summary } from './lib/summary.mjs';
 import { setup } from './setup.mjs';
@@ -25,18 +25,24 @@ const { scripts } = JSON.parse(readFileSync(join(root, 'package.json'), 'utf8'))
 // A step that hangs is ended and has failed.
 const longestStepMs = 30 * 60_000;
 const clippy = (...args) => ['cargo', 'clippy', '--quiet', ...args, '--', '-D', 'warnings'];
-/**
- * Tests in Node of all crates of bindings at once, so that what they share is compiled once. The runner writes CommonJS into
- * a temporary folder, which a package.json above it may say is not.
- */
+/** Tests of bindings in Node, by the runner that .cargo/config.toml names. */
 const wasmTests = {
   name: 'wasm',
+  command: ['cargo', 'test', '--target', wasmTarget, '-p', 'boresight-wasm', '--tests'],
+  counts: cargoCounts,
+};
+
+/**
+ * Those of networks, which alone compile tract for WebAssembly in the profile of tests. The runner writes CommonJS into a
+ * temporary folder, which a package.json above it may say is not.
+ */
+const wasmNeuralTests = {
+  name: 'wasm-neural',
   command: () => {
     const folder = join(root, 'target', 'wasm-tests');
     mkdirSync(folder, { recursive: true });
     writeFileSync(join(folder, 'package.json'), '{ "type": "commonjs" }\n');
-    const packages = ['wasm', 'wasm-neural'].flatMap((name) => ['-p', `boresight-${name}`]);
-    return ['wasm-pack', '--log-level', 'error', 'test', '--node', '--mode', 'no-install', 'crates/wasm', ...packages];
+    return ['wasm-pack', '--log-level', 'error', 'test', '--node', '--mode', 'no-install', 'crates/wasm-neural'];
   },
   variables: { TMPDIR: join(root, 'target', 'wasm-tests') },
   counts: cargoCounts,
@@ -118,6 +124,7 @@ const check = [
 
 /** The rest of `npm run test:all`. */
 const rest = [
+  wasmNeuralTests,
   { name: 'build-reference', work: buildReference, counts: checkCounts },
   { name: 'packaging', command: () => nodeTests('tests/packaging', '--test-concurrency=1'), counts: nodeCounts },
   { name: 'browser', command: browserTests, counts: nodeCounts },
@@ -182,7 +189,7 @@ async function runStep({ command, work, variables, counts }) {
 await main(async () => {
   const chosen = chosenSteps(process.argv.slice(2));
   const inCi = Boolean(process.env.CI);
-  await setup({ wasmPack: true });
+  await setup({ wasmPack: chosen.includes(wasmNeuralTests) });
   const results = [];
   for (const step of chosen) {
     console.log(`\n=== ${step.name}`);

@@ -7,19 +7,16 @@ import { findings } from './site/axe.mjs';
 
 const path = '#/angle';
 const ready = (page) => page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');
-const focused = (page) =>
-  page.evaluate(() => {
-    const { activeElement: at } = document;
-    return at?.dataset.action || at?.id || at?.tagName;
-  });
+const showCode = (page) => page.getByRole('button', { name: 'Copy as code' });
+const hasFocus = (control) => control.evaluate((node) => node === document.activeElement);
 
 /** Presses Tab until something has the focus. */
-async function tabTo(page, wanted) {
+async function tabTo(page, control) {
   for (let tries = 0; tries < 80; tries++) {
-    if ((await focused(page)) === wanted) return;
+    if (await hasFocus(control)) return;
     await page.keyboard.press('Tab');
   }
-  assert.fail(`${wanted} has the focus, not ${await focused(page)}`);
+  assert.fail(`${control} has no focus`);
 }
 
 browserTest(
@@ -27,32 +24,31 @@ browserTest(
   { path, permissions: ['clipboard-read', 'clipboard-write'] },
   async ({ page }) => {
     await ready(page);
-    await tabTo(page, 'show-code');
+    await tabTo(page, showCode(page));
     await page.keyboard.press('Enter');
     const dialog = page.getByRole('dialog', { name: 'What this page shows, as code' });
     await dialog.waitFor();
-    await tabTo(page, 'code-tab-javascript');
+    const tab = (name) => dialog.getByRole('tab', { name });
+    const code = (name) => dialog.getByRole('region', { name: `${name}, scrollable` });
+    await tabTo(page, tab('JavaScript'));
     for (const [key, name] of [
-      ['ArrowRight', 'commandLine'],
-      ['ArrowRight', 'javascript'],
-      ['ArrowLeft', 'commandLine'],
-      ['ArrowLeft', 'javascript'],
+      ['ArrowRight', 'Command line'],
+      ['ArrowRight', 'JavaScript'],
+      ['ArrowLeft', 'Command line'],
+      ['ArrowLeft', 'JavaScript'],
     ]) {
       await page.keyboard.press(key);
-      assert.equal(await focused(page), `code-tab-${name}`);
-      assert.deepEqual(
-        await dialog.locator('[role="tab"][aria-selected="true"]').evaluateAll((tabs) => tabs.map(({ id }) => id)),
-        [`code-tab-${name}`],
-      );
-      await dialog.locator(`[data-code="${name}"] pre`).waitFor();
+      await code(name).waitFor();
+      assert.ok(await hasFocus(tab(name)), name);
+      assert.deepEqual(await dialog.getByRole('tab', { selected: true }).allInnerTexts(), [name]);
     }
     await page.keyboard.press('Tab');
-    assert.equal(await focused(page), 'PRE', 'the code itself can be reached, to scroll it');
-    await tabTo(page, 'copy-code');
+    assert.ok(await hasFocus(code('JavaScript')), 'the code itself can be reached, to scroll it');
+    await tabTo(page, dialog.getByRole('button', { name: 'Copy' }));
     await page.keyboard.press('Enter');
-    await dialog.locator('[data-code="javascript"]').getByRole('status').getByText('Copied').waitFor();
+    await dialog.getByRole('status').getByText('Copied').waitFor();
     const text = await page.evaluate(() => navigator.clipboard.readText());
-    assert.equal(text, await dialog.locator('[data-code="javascript"] pre').textContent());
+    assert.equal(text, await code('JavaScript').textContent());
     const lines = await runScript(text);
     const shown = await page
       .locator('[data-row="music"] [data-target="0"][data-field="azimuth"]')
@@ -63,17 +59,17 @@ browserTest(
       await page.keyboard.press('Tab');
       assert.ok(
         await page.evaluate(() => document.activeElement === document.body || document.activeElement.closest('dialog')),
-        await focused(page),
+        await page.evaluate(() => document.activeElement.outerHTML),
       );
     }
     await page.keyboard.press('Escape');
     await dialog.waitFor({ state: 'detached' });
-    assert.equal(await focused(page), 'show-code');
+    assert.ok(await hasFocus(showCode(page)));
     await page.keyboard.press('Enter');
     await dialog.waitFor();
     await dialog.getByRole('button', { name: 'Close' }).click();
     await dialog.waitFor({ state: 'detached' });
-    assert.equal(await focused(page), 'show-code');
+    assert.ok(await hasFocus(showCode(page)));
   },
 );
 
@@ -86,7 +82,7 @@ browserTest(
       navigator.clipboard.writeText = () => Promise.reject(new DOMException('refused', 'NotAllowedError'));
     });
     const dialog = await openCode(page);
-    await dialog.locator('[data-code="javascript"] [data-action="copy-code"]').click();
+    await dialog.getByRole('button', { name: 'Copy' }).click();
     await dialog.getByText('The browser does not let pages copy').waitFor();
     const selected = await page.evaluate(() => getSelection().toString());
     assert.equal(selected.trim(), (await dialog.locator('[data-code="javascript"] pre').textContent()).trim());
@@ -115,8 +111,8 @@ browserTest(
   async ({ page, problems }) => {
     await ready(page);
     await page.route('**/assets/*.js', (route) => route.abort());
-    await page.locator('[data-action="show-code"]').click();
-    await page.locator('[data-action="show-code"]', { hasText: 'Not loaded' }).waitFor();
+    await showCode(page).click();
+    await page.getByRole('button', { name: 'Not loaded' }).waitFor();
     problems.length = 0;
     await page.unroute('**/assets/*.js');
     await openCode(page);
@@ -130,7 +126,7 @@ for (const viewport of ['desktop', 'phone']) {
       { path, viewport, scheme },
       async ({ page, screenshot }) => {
         await ready(page);
-        if (viewport === 'phone') await page.locator('.sidebar-toggle').click();
+        if (viewport === 'phone') await page.getByRole('button', { name: 'Show array, targets and settings' }).click();
         const dialog = await openCode(page);
         for (const name of ['JavaScript', 'Command line']) {
           await dialog.getByRole('tab', { name }).click();
@@ -146,7 +142,7 @@ for (const viewport of ['desktop', 'phone']) {
         // Escape closes the dialog alone.
         await page.keyboard.press('Escape');
         await dialog.waitFor({ state: 'detached' });
-        assert.equal(await focused(page), 'show-code');
+        assert.ok(await hasFocus(showCode(page)));
       },
     );
   }

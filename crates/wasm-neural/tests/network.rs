@@ -3,7 +3,8 @@
 #![cfg(target_arch = "wasm32")]
 #![allow(clippy::unwrap_used)]
 
-#[path = "../../wasm/tests/support/mod.rs"]
+#[allow(dead_code)]
+#[path = "../../wasm/tests/all/support.rs"]
 mod support;
 
 use boresight_core::presets::preset;

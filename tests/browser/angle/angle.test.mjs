@@ -7,6 +7,16 @@ const path =
   '#/angle?array=ula10&targets=-5:0,12:0&snr=20&snapshots=100&seed=7&methods=bartlett,capon,music,root-music';
 const estimates = (page, method) =>
   values(page, `[data-table="results"] [data-row="${method}"] [data-field="azimuth"]`);
+const field = (page, role, name) => page.getByRole(role, { name, exact: true });
+const plotOf = (page, name) => page.getByRole('figure', { name, exact: true });
+const save = (scope, kind) => scope.getByRole('button', { name: kind, exact: true });
+const spectrumCsv = (page) => saved(page, save(plotOf(page, 'Angle spectrum'), 'CSV'));
+const tableCsv = (page) => saved(page, save(field(page, 'region', 'Estimates and errors'), 'CSV'));
+/** A target's ring on the plot. */
+const ring = (page, number) =>
+  plotOf(page, 'Angle spectrum').getByRole('button', { name: `Target ${number}: azimuth` });
+const drawn = (page) =>
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 const shown = (page, method) => page.waitForSelector(`[data-row="${method}"] [data-field="azimuth"][data-value]`);
 
 browserTest('angle lab: estimates lie within five bounds of the targets', { path }, async ({ page }) => {
@@ -27,7 +37,7 @@ browserTest('angle lab: estimates lie within five bounds of the targets', { path
 browserTest('angle lab: dragging a target moves its estimates and the address', { path }, async ({ page }) => {
   await shown(page, 'music');
   const before = await estimates(page, 'music');
-  const box = await page.locator('.plot-handle[data-target="1"]').boundingBox();
+  const box = await ring(page, 2).boundingBox();
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
   await page.mouse.move(x, y);
   await page.mouse.down();
@@ -56,9 +66,9 @@ browserTest('angle lab: dragging a target moves its estimates and the address', 
 
 browserTest('angle lab: the address reproduces the numbers', { path }, async ({ page, context }) => {
   await shown(page, 'music');
-  await typeNumber(page.locator('input[name="snr"]'), '13');
-  await typeNumber(page.locator('input[name="elements"]'), '16');
-  await typeNumber(page.locator('input[name="azimuth-0"]'), '-21.5');
+  await typeNumber(field(page, 'spinbutton', 'SNR'), '13');
+  await typeNumber(field(page, 'spinbutton', 'Elements'), '16');
+  await typeNumber(field(page, 'spinbutton', 'Azimuth of target 1, degrees'), '-21.5');
   await parametersWith(
     page,
     (params) =>
@@ -71,7 +81,7 @@ browserTest('angle lab: the address reproduces the numbers', { path }, async ({ 
   await other.goto(page.url());
   await shown(other, 'root-music');
   assert.deepEqual(await estimates(other, 'root-music'), first);
-  assert.equal(await other.locator('input[name="snr"]').inputValue(), '13');
+  assert.equal(await field(other, 'spinbutton', 'SNR').inputValue(), '13');
   await reload(page);
   await shown(page, 'root-music');
   assert.deepEqual(await estimates(page, 'root-music'), first);
@@ -79,57 +89,58 @@ browserTest('angle lab: the address reproduces the numbers', { path }, async ({ 
 
 browserTest('angle lab: a target can be moved, added and removed from the keyboard', { path }, async ({ page }) => {
   await shown(page, 'music');
-  const target = page.locator('.plot-handle[data-target="0"]');
-  await target.focus();
+  await ring(page, 1).focus();
   await page.keyboard.press('ArrowLeft');
   await page.keyboard.press('Shift+ArrowLeft');
   await page.keyboard.press('-');
   await parametersWith(page, (params) => params.get('targets') === '-3.9:-0.5,12:0');
   // Plots say it with the next frame.
-  await page.waitForSelector('.plot-handle[aria-label*="azimuth −3.9 degrees, power −0.5 dB"]');
+  await page.getByRole('button', { name: /azimuth −3\.9 degrees, power −0\.5 dB/ }).waitFor();
   await page.keyboard.press('Delete');
   await parametersWith(page, (params) => params.get('targets') === '12:0');
-  assert.equal(await page.locator('.plot-handle').count(), 1);
-  assert.ok(
-    await page.locator('.plot-handle[data-target="0"]').evaluate((node) => node === focused()),
-    'the focus stays on a target',
-  );
-  await page.locator('[data-action="add-target"]').focus();
+  await ring(page, 2).waitFor({ state: 'detached' });
+  const rest = await ring(page, 1).elementHandle();
+  // The focus goes there with the next frame.
+  await page.waitForFunction((node) => node === focused(), rest);
+  await field(page, 'button', 'Add target').focus();
   await page.keyboard.press('Enter');
   await parametersWith(page, (params) => params.get('targets').split(',').length === 2);
 });
 
 browserTest('angle lab: double clicks add and remove targets', { path }, async ({ page }) => {
   await shown(page, 'music');
-  const plot = await page.locator('[data-plot="spectrum"] .u-over').boundingBox();
+  const plot = await plotOf(page, 'Angle spectrum').locator('.u-over').boundingBox();
   await page.mouse.dblclick(plot.x + plot.width * 0.25, plot.y + plot.height * 0.4);
   await parametersWith(page, (params) => params.get('targets').split(',').length === 3);
   const added = Number(parameters(page).get('targets').split(',')[2].split(':')[0]);
   assert.ok(Math.abs(added - 45) < 1, `added at ${added}`);
-  await page.locator('.plot-handle[data-target="2"]').dblclick();
+  await ring(page, 3).dblclick();
   await parametersWith(page, (params) => params.get('targets') === '-5:0,12:0');
 });
 
 browserTest('angle lab: what a method cannot do is said, and a bad position too', { path }, async ({ page }) => {
   await shown(page, 'music');
-  const single = page.locator('#method-single-snapshot-music');
+  const single = field(page, 'checkbox', 'Single-snapshot MUSIC');
   assert.ok(await single.isDisabled());
   assert.match(await page.locator('#method-single-snapshot-music-note').innerText(), /single snapshot/);
-  await page.locator('select[name="array"]').selectOption('at');
-  const field = page.locator('input[name="positions"]');
-  await typeText(field, '0, 1, x');
-  assert.match(await page.locator('.field .problem:visible').innerText(), /Element 3/);
+  await field(page, 'combobox', 'Virtual array').selectOption('at');
+  const positions = field(page, 'textbox', 'Positions, half wavelengths');
+  await typeText(positions, '0, 1, x');
+  await page
+    .getByRole('alert')
+    .filter({ hasText: /Element 3/ })
+    .waitFor();
   await parametersWith(page, (params) => params.get('array') === 'at:0,1,4,6');
-  await typeText(field, '0, 1, 3.5, 6, 9');
+  await typeText(positions, '0, 1, 3.5, 6, 9');
   await parametersWith(page, (params) => params.get('array') === 'at:0,1,3.5,6,9');
-  await page.waitForSelector('#method-esprit:disabled');
+  await field(page, 'checkbox', 'ESPRIT').and(page.locator(':disabled')).waitFor();
   assert.match(await page.locator('#method-esprit-note').innerText(), /uniform/);
   // No two of them are one apart, but all stand on a grid of one.
-  await typeText(field, '0, 2, 5');
-  await page.waitForSelector('#method-root-music:enabled');
+  await typeText(positions, '0, 2, 5');
+  await field(page, 'checkbox', 'Root-MUSIC').and(page.locator(':enabled')).waitFor();
   await shown(page, 'root-music');
-  await page.locator('select[name="array"]').selectOption('awr1843');
-  await page.waitForSelector('#method-sparse-bayesian:disabled');
+  await field(page, 'combobox', 'Virtual array').selectOption('awr1843');
+  await field(page, 'checkbox', 'Off-grid sparse Bayesian learning').and(page.locator(':disabled')).waitFor();
   assert.match(await page.locator('#method-sparse-bayesian-note').innerText(), /no elevation/);
 });
 
@@ -147,30 +158,31 @@ browserTest(
 
 browserTest('angle lab: plots and tables are saved as PNG and CSV', { path }, async ({ page }) => {
   await shown(page, 'music');
-  for (const plot of ['spectrum', 'elements', 'pattern'])
-    assertPng(await saved(page, `[data-plot="${plot}"] [data-export="png"]`));
-  const rows = assertCsv(
-    await saved(page, '[data-plot="spectrum"] [data-export="csv"]'),
-    'azimuth_deg,bartlett_db,capon_db,music_db',
-  );
+  const [elements, pattern] = ['Virtual elements', 'Beam pattern at boresight'].map((name) => plotOf(page, name));
+  for (const plot of [plotOf(page, 'Angle spectrum'), elements, pattern])
+    assertPng(await saved(page, save(plot, 'PNG')));
+  const rows = assertCsv(await spectrumCsv(page), 'azimuth_deg,bartlett_db,capon_db,music_db');
   // The grid, and 90 degrees.
   assert.equal(rows.length, 1025);
   assertCsv(
-    await saved(page, '[data-plot="elements"] [data-export="csv"]'),
+    await saved(page, save(elements, 'CSV')),
     'element,x_half_wavelengths,y_half_wavelengths,z_half_wavelengths,tx,rx',
   );
-  assertCsv(await saved(page, '[data-plot="pattern"] [data-export="csv"]'), 'azimuth_deg,response_db');
+  assertCsv(await saved(page, save(pattern, 'CSV')), 'azimuth_deg,response_db');
   assertCsv(
-    await saved(page, '[data-table="results"] [data-export="csv"]'),
+    await tableCsv(page),
     'method,target,true_azimuth_deg,true_power_db,azimuth_deg,error_deg,power_db,stated_sigma_deg,crb_sigma_deg,time_ms',
   );
 });
 
 browserTest('angle lab: a drag zooms, the cursor reads out, a key resets', { path }, async ({ page }) => {
   await shown(page, 'music');
-  const plot = page.locator('[data-plot="spectrum"]');
+  const plot = plotOf(page, 'Angle spectrum');
   const over = await plot.locator('.u-over').boundingBox();
-  const label = () => plot.locator('.readout').innerText();
+  const label = async () => {
+    await drawn(page);
+    return plot.locator('.readout').innerText();
+  };
   await page.mouse.move(over.x + over.width / 2, over.y + over.height / 2);
   // A pixel is 0.2 dB, and the middle may lie between two.
   assert.match(await label(), /Azimuth [+−]?0\.\d\d°\s+Level −1(7\.9|8\.[01])/);
@@ -180,7 +192,7 @@ browserTest('angle lab: a drag zooms, the cursor reads out, a key resets', { pat
   await page.mouse.up();
   await page.mouse.move(over.x + over.width / 2, over.y + over.height / 2);
   assert.match(await label(), /Azimuth \+22\.\d\d°/);
-  await plot.locator('.plot').press('0');
+  await plot.getByRole('application').press('0');
   await page.mouse.move(over.x + over.width / 2 + 1, over.y + over.height / 2);
   assert.match(await label(), /Azimuth [+−]?0\.\d\d°/);
 });
@@ -193,7 +205,7 @@ browserTest(
     const extra = Number(await page.locator('[data-row="bartlett"] td[title]').last().innerText());
     assert.ok(extra >= 1, `${extra} beside the targets`);
     const rows = assertCsv(
-      await saved(page, '[data-table="results"] [data-export="csv"]'),
+      await tableCsv(page),
       'method,target,true_azimuth_deg,true_power_db,azimuth_deg,error_deg,power_db,stated_sigma_deg,crb_sigma_deg,time_ms',
     );
     const beside = rows.filter(([method, target]) => method === 'bartlett' && target === '');
@@ -205,14 +217,11 @@ browserTest(
 
 browserTest('angle lab: without targets the spectra are of noise', { path }, async ({ page }) => {
   await shown(page, 'music');
-  for (let left = 2; left > 0; left--) await page.locator('button[aria-label="Remove target 1"]').click();
+  for (let left = 2; left > 0; left--) await field(page, 'button', 'Remove target 1').click();
   await parametersWith(page, (params) => params.get('targets') === '-');
   for (const method of ['bartlett', 'capon'])
     assert.doesNotMatch(await page.locator(`[data-row="${method}"]`).innerText(), /expected/);
-  const rows = assertCsv(
-    await saved(page, '[data-plot="spectrum"] [data-export="csv"]'),
-    'azimuth_deg,bartlett_db,capon_db',
-  );
+  const rows = assertCsv(await spectrumCsv(page), 'azimuth_deg,bartlett_db,capon_db');
   const levels = rows.map(([, bartlett]) => Number(bartlett));
   // Noise is 20 dB down at one element, 30 dB over ten; 100 snapshots leave a spread of 10 %, so 2 dB are five of them.
   assert.ok(
@@ -227,14 +236,11 @@ browserTest(
   async ({ page }) => {
     await shown(page, 'music');
     const csv = async () =>
-      assertCsv(
-        await saved(page, '[data-plot="spectrum"] [data-export="csv"]'),
-        'azimuth_deg,bartlett_db,music_db',
-      ).map((row) => row.map(Number));
+      assertCsv(await spectrumCsv(page), 'azimuth_deg,bartlett_db,music_db').map((row) => row.map(Number));
     const whole = await csv();
     assert.deepEqual(whole.at(-1), [90, ...whole[0].slice(1)]);
-    await page.locator('select[name="array"]').selectOption('at');
-    await typeText(page.locator('input[name="positions"]'), '0, 1.3, 2.9, 4.1');
+    await field(page, 'combobox', 'Virtual array').selectOption('at');
+    await typeText(field(page, 'textbox', 'Positions, half wavelengths'), '0, 1.3, 2.9, 4.1');
     await parametersWith(page, (params) => params.get('array') === 'at:0,1.3,2.9,4.1');
     await page.waitForFunction(() => /at|positions/.test(within('[data-plot="spectrum"]', 'figcaption').innerText));
     assert.ok((await csv()).at(-1)[0] < 89);

@@ -61,7 +61,7 @@ browserTest(
   async ({ page }) => {
     const before = await checkAngle(page, ['music', 'esprit'], 1e-9);
     await page.locator('[data-row="music"] [data-field="azimuth"][data-value]').first().waitFor();
-    await page.locator('#method-capon').check();
+    await page.getByRole('checkbox', { name: 'Capon (MVDR)' }).check();
     const after = await checkAngle(page, ['capon', 'music', 'esprit'], 1e-9);
     assert.notEqual(after.javascript.text, before.javascript.text);
     assert.notEqual(after.commandLine.text, before.commandLine.text);

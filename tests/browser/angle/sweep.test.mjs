@@ -8,9 +8,14 @@ import { typeNumber } from '../lib/type.mjs';
 const scene = '#/angle?array=ula10&targets=-5:0,12:0&snr=20&snapshots=100&seed=3&methods=bartlett,music';
 const HEADER = 'snr_db,crb_deg,bartlett_rmse_deg,bartlett_found,music_rmse_deg,music_found';
 const done = (page) => page.waitForSelector('[data-sweep][aria-busy="false"] [data-plot="sweep-found"]', patient);
+const panel = (page) => page.getByRole('region', { name: 'Monte Carlo', exact: true });
+const field = (page, role, name) => panel(page).getByRole(role, { name, exact: true });
+const runButton = (page) => field(page, 'button', 'Run');
+const save = (page, plot) =>
+  panel(page).getByRole('figure', { name: plot, exact: true }).getByRole('button', { name: 'CSV' });
 const run = async (page) => {
-  await page.locator('[data-action="sweep"]').click();
-  await page.waitForSelector('[data-sweep] [data-action="cancel-sweep"]');
+  // Looked for from before: few runs may be done soon.
+  await Promise.all([field(page, 'button', 'Cancel').waitFor(), runButton(page).click()]);
   await done(page);
 };
 
@@ -19,11 +24,9 @@ browserTest(
   { path: scene },
   async ({ page }) => {
     await page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');
-    await typeNumber(page.locator('input[name="sweep-from"]'), '0');
+    await typeNumber(field(page, 'spinbutton', 'From'), '0');
     await run(page);
-    const rows = assertCsv(await saved(page, '[data-plot="sweep-error"] [data-export="csv"]'), HEADER).map((row) =>
-      row.map(Number),
-    );
+    const rows = assertCsv(await saved(page, save(page, 'Error')), HEADER).map((row) => row.map(Number));
     assert.equal(rows.length, 11);
     for (const [snr, bound, fft, fftFound, music, found] of rows) {
       assert.equal(found, 1, `all are found at ${snr} dB`);
@@ -36,7 +39,7 @@ browserTest(
     const [first, last] = [rows[0], rows.at(-1)];
     const slope = Math.log10(first[1] / last[1]) / ((last[0] - first[0]) / 20);
     assert.ok(Math.abs(slope - 1) < 0.05, `slope ${slope}`);
-    await typeNumber(page.locator('input[name="snr"]'), '10');
+    await typeNumber(page.getByRole('spinbutton', { name: 'SNR' }), '10');
     await page.getByText('The last runs are of other settings').waitFor();
     assert.equal(await page.locator('[data-plot="sweep-error"]').count(), 0);
   },
@@ -49,7 +52,7 @@ browserTest(
     await page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');
     await run(page);
     const rows = assertCsv(
-      await saved(page, '[data-plot="sweep-found"] [data-export="csv"]'),
+      await saved(page, save(page, 'Targets found')),
       HEADER.replace('snr_db', 'separation_deg'),
     ).map((row) => row.map(Number));
     for (const [separation, , , fft, , music] of rows) {
@@ -66,19 +69,23 @@ browserTest(
   { path: `${scene}&runs=5000` },
   async ({ page }) => {
     await page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');
-    const bar = clickWhenThere(page, '[data-sweep] [data-action="cancel-sweep"]');
-    await page.locator('[data-action="sweep"]').click();
+    const bar = clickWhenThere(page, '[data-sweep] .progress-line button');
+    await runButton(page).click();
     const { value, max } = await bar;
     assert.ok(value < max);
-    await page.waitForSelector('[data-action="sweep"]');
-    assert.match(await page.locator('[data-sweep]').innerText(), /Cancelled/);
-    await page.locator('select[name="sweep"]').selectOption('separation');
-    await page.locator('[aria-label="Remove target 2"], [data-action="remove-1"]').first().click();
-    await page.waitForSelector('[data-action="sweep"]:disabled');
-    assert.match(await page.locator('[data-sweep]').innerText(), /takes two targets/);
-    await page.locator('select[name="sweep"]').selectOption('snapshots');
-    await typeNumber(page.locator('input[name="runs"]'), '20');
-    await typeNumber(page.locator('input[name="sweep-to"]'), '50');
+    await runButton(page).waitFor();
+    await panel(page)
+      .getByText(/Cancelled/)
+      .waitFor();
+    await field(page, 'combobox', 'Against').selectOption('separation');
+    await page.getByRole('button', { name: 'Remove target 2', exact: true }).click();
+    await runButton(page).and(page.locator(':disabled')).waitFor();
+    await panel(page)
+      .getByText(/takes two targets/)
+      .waitFor();
+    await field(page, 'combobox', 'Against').selectOption('snapshots');
+    await typeNumber(field(page, 'spinbutton', 'Runs'), '20');
+    await typeNumber(field(page, 'spinbutton', 'To'), '50');
     await run(page);
     assert.match(await page.locator('[data-plot="sweep-error"] figcaption').innerText(), /1 target, 20 runs/);
   },

@@ -13,12 +13,19 @@ const cell = (method, field) => `[aria-busy="false"] [data-row="${method}"] [dat
 const ready = (page, method = 'iaa', field = 'cells') =>
   page.waitForSelector(`${cell(method, field)}[data-value]`, { timeout: 80_000 });
 const value = async (page, method, field) => (await values(page, cell(method, field)))[0];
-const image = (method) => `[data-plot="image-${method}"]`;
+const image = (page, method) => page.locator(`[data-plot="image-${method}"]`);
+const field = (page, role, name) => page.getByRole(role, { name, exact: true });
+const cancelled = (page) => page.getByText('Cancelled: what is greyed is of other settings');
+const save = (scope, kind) => scope.getByRole('button', { name: kind, exact: true });
+
+/** What was set in motion is drawn after two frames. */
+const drawn = (page) =>
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
 /** What is painted on a plot, as a number that changes with it. */
 const painted = (page, method) =>
-  page
-    .locator(`${image(method)} canvas`)
+  image(page, method)
+    .locator('canvas')
     .first()
     .evaluate((canvas) => {
       const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
@@ -27,11 +34,33 @@ const painted = (page, method) =>
       return sum;
     });
 
+/** Waits until something else is painted than before, and returns it. */
+async function repainted(page, method, before, change = 'it') {
+  for (let tries = 0; tries < 200; tries++) {
+    await drawn(page);
+    const now = await painted(page, method);
+    if (now !== before) return now;
+  }
+  assert.fail(`${change} paints nothing else`);
+}
+
+/** Turns the wheel, and waits until the page had that. */
+async function wheel(page, by) {
+  await page.evaluate(() => {
+    window.wheeled = new Promise((done) => addEventListener('wheel', done, { capture: true, once: true }));
+  });
+  await page.mouse.wheel(0, by);
+  await page.evaluate(() => window.wheeled.then(() => {}));
+  await drawn(page);
+}
+
 /** The reading at a share of a plot's width and height. */
 async function reading(page, method, x = 0.5, y = 0.5) {
-  const { width, height } = await page.locator(`${image(method)} .u-over`).boundingBox();
-  await page.locator(`${image(method)} .u-over`).hover({ position: { x: width * x, y: height * y } });
-  const text = await page.locator(`${image(method)} .readout`).innerText();
+  const over = image(page, method).locator('.u-over');
+  const { width, height } = await over.boundingBox();
+  await over.hover({ position: { x: width * x, y: height * y } });
+  await drawn(page);
+  const text = await image(page, method).locator('.readout').innerText();
   const [, atX, atY] = /x ([+−]?[\d.]+) m\s+y ([+−]?[\d.]+) m/.exec(text) ?? assert.fail(`the reading is “${text}”`);
   return { text, x: Number(atX.replace('−', '-')), y: Number(atY.replace('−', '-')) };
 }
@@ -53,7 +82,7 @@ browserTest(
       await value(page, 'iaa', 'cells'),
     );
     assert.notEqual(await painted(page, 'iaa'), await painted(page, 'bartlett'));
-    assert.match(await page.locator(`${image('iaa')} .detail`).innerText(), /spectra, −\d+\.\d.dB outside/);
+    assert.match(await image(page, 'iaa').locator('.detail').innerText(), /spectra, −\d+\.\d.dB outside/);
   },
 );
 
@@ -64,31 +93,27 @@ browserTest(
     await ready(page);
     const both = await painted(page, 'iaa');
     const cells = await value(page, 'iaa', 'cells');
-    await page.locator('input[name="radar-left"]').uncheck();
+    await field(page, 'checkbox', 'left').uncheck();
     await page.waitForFunction(
       ([selector, before]) => Number(document.querySelector(selector)?.dataset.value) < before,
       [cell('iaa', 'cells'), cells],
     );
-    const one = await painted(page, 'iaa');
-    assert.notEqual(one, both);
+    const one = await repainted(page, 'iaa', both);
     assert.match((await reading(page, 'iaa', 0.9, 0.9)).text, /not seen/);
-    await page.locator('input[name="radar-front-left"]').uncheck();
+    await field(page, 'checkbox', 'front left').uncheck();
     await page.waitForSelector('[data-notice="radars"]');
-    await page.locator('input[name="radar-front-left"]').check();
+    await field(page, 'checkbox', 'front left').check();
     await ready(page);
     let before = one;
     for (const change of [
-      () => page.locator('input[name="truth"]').uncheck(),
-      () => page.locator('input[name="fields"]').uncheck(),
-      () => slideTo(page.locator('input[name="opacity"]'), 30),
-      () => page.locator('select[name="span"]').selectOption('20'),
-      () => page.locator('select[name="colors"]').selectOption('magma'),
+      () => field(page, 'checkbox', 'Truth').uncheck(),
+      () => field(page, 'checkbox', 'Fields of view').uncheck(),
+      () => slideTo(field(page, 'slider', 'Opacity'), 30),
+      () => field(page, 'combobox', 'Dynamic range').selectOption('20'),
+      () => field(page, 'combobox', 'Colour map').selectOption('magma'),
     ]) {
       await change();
-      await page.waitForTimeout(100);
-      const after = await painted(page, 'iaa');
-      assert.notEqual(after, before, String(change));
-      before = after;
+      before = await repainted(page, 'iaa', before, String(change));
     }
     await parametersWith(
       page,
@@ -107,20 +132,19 @@ browserTest(
     assert.ok(Math.abs(middle.x - 21) < 1 && Math.abs(middle.y) < 1, middle.text);
     assert.match(middle.text, /dBFS\s+front left/);
     assert.match(
-      await page.locator(`${image('iaa')} .readout`).innerText(),
+      await image(page, 'iaa').locator('.readout').innerText(),
       /x \+2[01]\.\d m\s+y [+−]?0\.\d m/,
       'the cursor is shared',
     );
     assert.ok((await reading(page, 'iaa', 0.1)).y > 15, 'left is left');
     const top = await reading(page, 'iaa', 0.5, 0);
-    await page.mouse.wheel(0, -300);
-    await page.waitForTimeout(100);
+    await wheel(page, -300);
     assert.equal(
       (await reading(page, 'iaa', 0.5, 0)).x,
       top.x,
       'a wheel over an image that is not chosen scrolls the page',
     );
-    const host = page.locator(`${image('bartlett')} .plot`);
+    const host = image(page, 'bartlett').getByRole('application');
     await host.focus();
     await page.keyboard.press('+');
     const zoomed = await reading(page, 'iaa', 0.5, 0);
@@ -130,12 +154,12 @@ browserTest(
     await page.keyboard.press('ArrowRight');
     assert.ok((await reading(page, 'iaa')).y < -1.5, 'and to the right');
     const before = await reading(page, 'bartlett');
-    const { x, y, width, height } = await page.locator(`${image('iaa')} .u-over`).boundingBox();
+    const { x, y, width, height } = await image(page, 'iaa').locator('.u-over').boundingBox();
     await page.mouse.move(x + width / 2, y + height / 2);
     await page.mouse.down();
     await page.mouse.move(x + width / 2 + 40, y + height / 2 + 40, { steps: 5 });
     await page.mouse.up();
-    await page.waitForTimeout(100);
+    await drawn(page);
     const dragged = await reading(page, 'bartlett');
     const metres = (40 * (zoomed.x - 21)) / (height / 2);
     assert.ok(
@@ -146,8 +170,7 @@ browserTest(
     await page.mouse.move(x + width / 2, y + height / 2);
     await page.mouse.down();
     await page.mouse.up();
-    await page.mouse.wheel(0, -300);
-    await page.waitForTimeout(100);
+    await wheel(page, -300);
     const closer = await reading(page, 'bartlett', 0.5, 0);
     assert.ok(
       Math.abs(closer.x - dragged.x - (zoomed.x - 21) / 2) < 0.6,
@@ -164,49 +187,53 @@ browserTest(
   { path: `${small}&seed=5&view=0:30:-5:7&from=targets&span=50` },
   async ({ page, context }) => {
     await ready(page);
-    const shown = async (at) => [
-      await value(at, 'iaa', 'outsideDb'),
-      await value(at, 'iaa', 'sources'),
-      await painted(at, 'iaa'),
-      await painted(at, 'bartlett'),
-    ];
+    const shown = async (at) => {
+      await drawn(at);
+      return [
+        await value(at, 'iaa', 'outsideDb'),
+        await value(at, 'iaa', 'sources'),
+        await painted(at, 'iaa'),
+        await painted(at, 'bartlett'),
+      ];
+    };
     await page.mouse.move(0, 0);
     const first = await shown(page);
-    assert.match(await page.locator(`${image('iaa')} .detail`).innerText(), /^targets/);
+    assert.match(await image(page, 'iaa').locator('.detail').innerText(), /^targets/);
     await parametersWith(page, (params) => params.get('view') === '0:30:-5:7' && params.get('seed') === '5');
     const other = await context.newPage();
     await other.goto(page.url());
     await ready(other);
     assert.deepEqual(await shown(other), first);
     await other.close();
-    await page.locator('button.new-seed').click();
+    await page.getByRole('button', { name: 'Next seed' }).click();
     await parametersWith(page, (params) => params.get('seed') === '6');
-    await ready(page);
-    assert.notEqual(await value(page, 'iaa', 'outsideDb'), first[0]);
+    await page.locator(`${cell('iaa', 'outsideDb')}[data-value]:not([data-value="${first[0]}"])`).waitFor();
   },
 );
 
 browserTest('bird’s-eye view: work is cancelled and taken up again', { path: small }, async ({ page }) => {
-  const { value: share, max } = await clickWhenThere(page, '[data-progress] [data-action="cancel"]');
+  const { value: share, max } = await clickWhenThere(page, '[data-progress] button');
   assert.ok(share >= 0 && share < max, `${share} of ${max}`);
-  await page.waitForSelector('[data-cancelled]');
+  await cancelled(page).waitFor();
   assert.equal(await page.locator(`${cell('iaa', 'outsideDb')}[data-value]`).count(), 0);
-  await page.locator('[data-action="resume"]').click();
+  await page.getByRole('button', { name: 'Compute again' }).click();
   await ready(page);
 });
 
 browserTest('bird’s-eye view: what cannot be is said', { path: small }, async ({ page }) => {
   await ready(page);
-  await typeNumber(page.locator('input[name="reach"]'), '0');
+  const reach = field(page, 'spinbutton', 'Reach');
+  await typeNumber(reach, '0');
   assert.match(await page.locator('.problem:visible').innerText(), /from 2 to 300/);
-  await typeNumber(page.locator('input[name="reach"]'), '300');
-  await page.locator('select[name="cell"]').selectOption('0.1');
-  await page.waitForSelector('[role="alert"][data-error="too-large"]');
-  assert.match(await page.locator('[role="alert"]').innerText(), /9\.4 million/);
-  await typeNumber(page.locator('input[name="reach"]'), '20');
+  await typeNumber(reach, '300');
+  await field(page, 'combobox', 'Cell').selectOption('0.1');
+  const alert = page.getByRole('alert');
+  await alert.filter({ hasText: /9\.4 million.*too-large/s }).waitFor();
+  await typeNumber(reach, '20');
+  await alert.waitFor({ state: 'detached' });
   await ready(page);
-  assert.equal(await page.locator('[role="alert"]').count(), 0);
-  const single = page.locator('#method-single-snapshot-music');
+  assert.equal(await alert.count(), 0);
+  const single = field(page, 'checkbox', 'Single-snapshot MUSIC');
   assert.ok(await single.isDisabled());
   assert.match(await page.locator('#method-single-snapshot-music-note').innerText(), /uniform/);
   await page.goto(`${page.url().split('#')[0]}#/birdseye?seed=-1&cell=7&radars=roof&methods=magic&view=1:0:0:1`);
@@ -228,27 +255,27 @@ browserTest(
     assert.equal(await page.locator('[data-field="outsideDb"]').count(), 0, 'nothing is measured without a truth');
     assert.match(await page.locator('.birdseye-bar .legend').innerText(), /Object the board reported/);
     const before = await painted(page, 'iaa');
-    await page.locator('input[name="frame"]').press('ArrowRight');
+    await field(page, 'slider', 'Frame').press('ArrowRight');
     await parametersWith(page, (params) => params.get('frame') === '1');
     await ready(page);
-    assert.notEqual(await painted(page, 'iaa'), before);
+    await repainted(page, 'iaa', before);
     await ready(page, 'single-snapshot-music');
     await drop(page, [
       { name: 'cut.bin', bytes: recording('xwr16xx_crw_dca_module_2018_1015v2.bin').subarray(0, 1000) },
     ]);
-    await page.waitForTimeout(200);
-    assert.equal(await page.locator('[role="alert"]').count(), 0, 'files are opened on the page Capture');
+    await page.getByRole('list', { name: 'Open files' }).getByText('cut.bin').waitFor();
+    assert.equal(await page.getByRole('alert').count(), 0, 'files are opened on the page Capture');
   },
 );
 
 browserTest('bird’s-eye view: images and tables are saved', { path: small }, async ({ page }) => {
   await ready(page);
-  assertPng(await saved(page, `${image('iaa')} [data-export="png"]`));
-  assertPng(await saved(page, '[data-action="save-all"]'));
-  const rows = assertCsv(await saved(page, `${image('iaa')} [data-export="csv"]`), 'x_m,y_m,power_dbfs,radar');
+  assertPng(await saved(page, save(image(page, 'iaa'), 'PNG')));
+  assertPng(await saved(page, save(page, 'PNG of all')));
+  const rows = assertCsv(await saved(page, save(image(page, 'iaa'), 'CSV')), 'x_m,y_m,power_dbfs,radar');
   assert.ok(rows.length > 5000, `${rows.length} cells`);
   assertCsv(
-    await saved(page, '[data-table="results"] [data-export="csv"]'),
+    await saved(page, save(page.getByRole('region', { name: 'How clean the images are' }), 'CSV')),
     'method,from,outside_db,peak_outside_db,lit_outside_share,lit_targets_share,cells,directions,unresolved_cells,off_map,time_ms',
   );
 });
@@ -306,11 +333,7 @@ browserTest(
   { path: `${small.replace(/methods=[^&]*/, 'methods=bartlett,sparse-bayesian,learned-pursuit')}` },
   async ({ page }) => {
     const bar = page.locator('[data-progress]');
-    await page.waitForFunction(
-      () => /sparse Bayesian/i.test(document.querySelector('[data-progress]')?.textContent ?? ''),
-      undefined,
-      { timeout: 60_000 },
-    );
+    await bar.filter({ hasText: /sparse Bayesian/i }).waitFor({ timeout: 60_000 });
     for (const method of ['bartlett', 'learned-pursuit']) {
       assert.equal(
         await page.locator(`[data-row="${method}"] [data-field="outsideDb"][data-value]`).count(),
@@ -318,9 +341,8 @@ browserTest(
         `${method} is there before`,
       );
     }
-    await page.waitForSelector('[data-progress] [data-left]', { timeout: 60_000 });
-    assert.match(await bar.innerText(), /about \d+ (s|min) left/);
-    await bar.locator('[data-action="cancel"]').click();
-    await page.waitForSelector('[data-cancelled]');
+    await bar.getByText(/about \d+ (s|min) left/).waitFor({ timeout: 60_000 });
+    await bar.getByRole('button', { name: 'Cancel' }).click();
+    await cancelled(page).waitFor();
   },
 );

@@ -21,6 +21,7 @@ const readAt = async (page, name, x, y) => {
   const over = page.locator(`${name} .u-over`);
   const { width, height } = await over.boundingBox();
   await over.hover({ position: { x: x * width, y: y * height } });
+  await page.evaluate(() => drawn());
   return page.locator(`${name} .readout`).innerText();
 };
 
@@ -199,7 +200,7 @@ elementTest('a cell of a range-Doppler map is chosen by click and keys, if it ma
   assert.match(words, /levels from -?−?110 to −50 dBFS/);
   assert.equal(csv.length, 51);
   assert.equal(await page.locator(`${name} [part="legend"]`).isVisible(), false);
-  await page.locator(`${name} .plot`).focus();
+  await page.locator(name).getByRole('application').focus();
   for (const key of ['n', 'n', 'ArrowUp', 'Shift+ArrowRight', 'Home']) await page.keyboard.press(key);
   const bins = (await page.evaluate(() => cells)).map((cell) => cell && [cell.rangeBin, cell.dopplerBin]);
   assert.deepEqual(bins, [[7, 1], [3, 3], [3, 4], [9, 4], null], 'the strongest comes first, and the map ends');
@@ -273,6 +274,7 @@ elementTest('a mounting angle’s plot holds its band and its tolerance, and giv
       });
     });
     await over.hover({ position: { x: width / 2, y: height * at } });
+    await page.evaluate(() => drawn());
     levels.push(await page.evaluate(() => level));
   }
   // The tolerance is drawn in, and what was not yet known at first is not.

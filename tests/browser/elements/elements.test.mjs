@@ -44,6 +44,7 @@ elementTest(
     });
     await page.keyboard.press('Tab');
     await page.keyboard.press('ArrowRight');
+    await page.evaluate(() => drawn());
     const readout = page.locator('boresight-spectrum').locator('[part="readout"]');
     assert.match(await readout.textContent(), /Azimuth .*° {3}Level −?\d+\.\d\u00a0dB/);
     assert.match(await page.locator('boresight-spectrum [part="legend"]').innerText(), /capon\s+−?\d+\.\d\u00a0dB/);
@@ -193,9 +194,11 @@ elementTest('files are opened, worked on, cancelled and refused', async ({ page 
   });
   const folder = recordings('awr1642');
   const capture = page.locator('boresight-capture');
-  await capture
-    .locator('input[type=file]')
-    .setInputFiles([join(folder, 'xwr16xx_crw_dca_module_2018_1015v2.bin'), join(folder, 'profile.cfg')]);
+  const captureFiles = capture.getByLabel('a capture', { exact: true });
+  await captureFiles.setInputFiles([
+    join(folder, 'xwr16xx_crw_dca_module_2018_1015v2.bin'),
+    join(folder, 'profile.cfg'),
+  ]);
   await page.waitForFunction(() =>
     told.some(([name, type]) => name === 'boresight-capture' && type === 'boresight-result'),
   );
@@ -206,26 +209,26 @@ elementTest('files are opened, worked on, cancelled and refused', async ({ page 
   await page.waitForFunction(() => document.querySelector('boresight-capture').frame.frame === 2);
 
   const drive = page.locator('boresight-drive');
-  await drive
-    .locator('input[type=file]')
-    .setInputFiles([join(recordings('delphi'), 'front_radar.csv.gz'), join(recordings('delphi'), 'pose_10hz.csv.gz')]);
-  await drive.getByRole('button', { name: 'Cancel' }).click();
-  assert.equal(await drive.getByRole('button', { name: 'Cancel' }).isVisible(), false);
+  const driveFiles = drive.getByLabel('a drive', { exact: true });
+  const tables = ['front_radar.csv.gz', 'pose_10hz.csv.gz'].map((name) => join(recordings('delphi'), name));
+  await driveFiles.setInputFiles(tables);
+  const cancel = drive.getByRole('button', { name: 'Cancel' });
+  await cancel.click();
+  await cancel.waitFor({ state: 'hidden' });
   await page.evaluate(() => document.querySelector('boresight-drive').setAttribute('method', 'least-squares'));
-  await drive
-    .locator('input[type=file]')
-    .setInputFiles([join(recordings('delphi'), 'front_radar.csv.gz'), join(recordings('delphi'), 'pose_10hz.csv.gz')]);
+  await driveFiles.setInputFiles(tables);
   await page.waitForFunction(() => document.querySelector('boresight-drive').calibration !== null, undefined, {
     timeout: 60_000,
   });
   const angle = await page.evaluate(() => document.querySelector('boresight-drive').calibration.result.angleDeg);
   assert.ok(Math.abs(angle + 1.96) < 0.4, `${angle}`);
+  await page.evaluate(() => drawn());
   assert.match(await drive.locator('[part="value"]').textContent(), /^[−-][12]\.\d\d° ± /);
 
-  await drive.locator('input[type=file]').setInputFiles([join(folder, 'profile.cfg')]);
+  await driveFiles.setInputFiles([join(folder, 'profile.cfg')]);
   await drive.getByRole('alert').waitFor();
   assert.ok((await page.evaluate(() => told.at(-1)[1])) === 'boresight-error');
-  await capture.locator('input[type=file]').setInputFiles([join(folder, 'profile.cfg')]);
+  await captureFiles.setInputFiles([join(folder, 'profile.cfg')]);
   assert.match(await capture.getByRole('alert').textContent(), /\.bin/);
 });
 
@@ -344,14 +347,15 @@ elementTest(
       'Straight. Click it.',
     ]);
 
-    await line.locator('.plot').focus();
-    await page.keyboard.press('ArrowRight');
+    await line.getByRole('application').press('ArrowRight');
+    await page.evaluate(() => drawn());
     assert.equal(await line.locator('[part="readout"]').innerText(), 'Time 3.0 s');
     assert.equal(await line.locator('[part="legend"] li').first().innerText(), 'A\n30 dB');
     await line.locator('[part="live"]').filter({ hasText: 'Time 3.0 s' }).waitFor({ state: 'attached' });
     assert.equal(await other.locator('[part="live"]').textContent(), '', 'only where the focus is is it said');
 
     await line.locator('.u-over').hover({ position: { x: 200, y: 60 } });
+    await page.evaluate(() => drawn());
     assert.match(
       await other.locator('[part="readout"]').innerText(),
       /Time [0-3]\.\d s/,
@@ -361,9 +365,9 @@ elementTest(
     await page.evaluate(() => {
       document.querySelector('boresight-plot').caption = () => ['Figure 1.'];
     });
-    assertCsv(await saved(page, 'boresight-plot >> nth=0 >> [data-export="csv"]'), 'time_s,level_db');
-    assertPng(await saved(page, 'boresight-plot >> nth=0 >> [data-export="png"]'));
-    const { name, bytes } = await saved(page, 'boresight-plot >> nth=0 >> [data-export="svg"]');
+    assertCsv(await saved(page, line.getByRole('button', { name: 'CSV' })), 'time_s,level_db');
+    assertPng(await saved(page, line.getByRole('button', { name: 'PNG' })));
+    const { name, bytes } = await saved(page, line.getByRole('button', { name: 'SVG' }));
     assert.equal(name, 'boresight-line.svg');
     const drawing = bytes.toString('utf8');
     for (const text of ['Line, of 5', '>A<', '>B<', 'Figure 1.']) assert.ok(drawing.includes(text), text);
@@ -376,7 +380,7 @@ elementTest('points are moved, keys and clicks told, and a zoom is set from outs
   await addLine(page);
   const line = page.locator('boresight-plot').first();
   const last = () => page.evaluate(() => told.at(-1));
-  const point = line.locator('.plot-handle');
+  const point = line.getByRole('button', { name: 'Point 1' });
   const { x, y, width, height } = await point.boundingBox();
   await page.mouse.move(x + width / 2, y + height / 2);
   await page.mouse.down();

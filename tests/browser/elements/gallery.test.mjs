@@ -68,6 +68,12 @@ const codeOf = async (page, kind) => {
   return page.locator(`[data-code="${kind.toLowerCase()}"]`).textContent();
 };
 
+/** Waits until a kind of code has a text. */
+const codeHas = async (page, kind, pattern) => {
+  await page.getByRole('button', { name: kind, exact: true }).click();
+  await page.locator(`[data-code="${kind.toLowerCase()}"]`).filter({ hasText: pattern }).waitFor();
+};
+
 /** Puts bundled recordings beside a page. */
 const beside = (page) =>
   page.route(/\.(bin|cfg|dat|gz)$/, async (route) => {
@@ -153,39 +159,30 @@ test('the code for React shows the same, all elements on a page', {
 test('a form of the schema changes picture, code and link, key by key', { skip: skipWithoutBrowser }, async () => {
   const { page, problems, close } = await opened('spectrum');
   const before = await words(page, 'spectrum');
-  await page.locator('[data-option="method"] select').selectOption('music');
-  await page.waitForFunction(() =>
-    document
-      .querySelector('boresight-spectrum')
-      .shadowRoot.querySelector('.alternative')
-      .textContent.startsWith('music'),
-  );
-  const points = page.locator('[data-option="SharedEstimatorOptions.gridPoints"] input');
+  await page.getByRole('combobox', { name: 'Method', exact: true }).selectOption('music');
+  const told = page.locator('boresight-spectrum .alternative');
+  await told.filter({ hasText: /^music/ }).waitFor({ state: 'attached' });
+  const points = page.getByRole('spinbutton', { name: 'Grid points', exact: true });
   await typeNumber(points, '64');
   await leave(points);
   await page.waitForFunction(
     () => document.querySelector('boresight-spectrum').estimates[0].spectrum.azimuthDeg.length < 100,
   );
-  const html = await codeOf(page, 'HTML');
-  assert.match(html, /sources: 2, method: 'music', gridPoints: 64/);
+  await codeHas(page, 'HTML', /sources: 2, method: 'music', gridPoints: 64/);
   await parametersWith(page, (given) => given.get('set') === 'method:music,gridPoints:64');
   // A number that none may be is refused with its range, and counts for nothing.
   await typeNumber(points, '5');
   await page.getByText('16 to 65536').waitFor();
-  assert.match(await codeOf(page, 'React'), /gridPoints: 64/);
+  await codeHas(page, 'React', /gridPoints: 64/);
   // An attribute, of the element itself.
-  const floor = page.locator('[data-option="@floor-db"] input');
+  const floor = page.getByRole('spinbutton', { name: 'Floor', exact: true });
   await typeNumber(floor, '30');
   await leave(floor);
-  assert.match(await codeOf(page, 'HTML'), /<boresight-spectrum heading="Two targets" floor-db="30">/);
+  await codeHas(page, 'HTML', '<boresight-spectrum heading="Two targets" floor-db="30">');
   assert.match(await codeOf(page, 'Notebook'), /^settings = \{"heading": "Two targets", "floor_db": 30\}$/m);
   assert.equal(await page.locator('boresight-spectrum').getAttribute('floor-db'), '30');
   await page.getByRole('button', { name: 'Defaults' }).click();
-  await page.waitForFunction(
-    (wanted) =>
-      document.querySelector('boresight-spectrum').shadowRoot.querySelector('.alternative').textContent === wanted,
-    before,
-  );
+  await told.filter({ hasText: before }).waitFor({ state: 'attached' });
   assert.deepEqual(problems, []);
   await close();
 });
@@ -196,12 +193,9 @@ test('a link brings an element with its options, and what it says wrongly is nam
   const { page, close } = await opened('birds-eye', '&set=@colors:magma,egoSpeedMps:5');
   await words(page, 'birds-eye');
   assert.equal(await page.locator('boresight-birds-eye').getAttribute('colors'), 'magma');
-  assert.match(await codeOf(page, 'HTML'), /seed: 1, egoSpeedMps: 5/);
-  assert.equal(
-    await page.locator('[data-option="StreetOptions.seed"] input').inputValue(),
-    '1',
-    'the form has what is so',
-  );
+  await codeHas(page, 'HTML', /seed: 1, egoSpeedMps: 5/);
+  const seed = page.getByRole('spinbutton', { name: 'Seed', exact: true });
+  assert.equal(await seed.inputValue(), '1', 'the form has what is so');
   await close();
   const wrong = await openPage(browser, demo.url, { path: '#/elements?element=boresight-birds-eye&set=nothing:1' });
   await wrong.page.getByText('“set=nothing:1”').waitFor();
@@ -221,8 +215,7 @@ test('code is copied by the keyboard', { skip: skipWithoutBrowser }, async () =>
   const { page, close } = await opened('mounting-angle');
   await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
   const code = await codeOf(page, 'Notebook');
-  await page.locator('[data-action="copy-code"]').focus();
-  await page.keyboard.press('Enter');
+  await page.getByRole('button', { name: 'Copy', exact: true }).press('Enter');
   await page.getByRole('button', { name: 'Copied' }).waitFor();
   assert.equal(await page.evaluate(() => navigator.clipboard.readText()), code);
   await close();

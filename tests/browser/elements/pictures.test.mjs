@@ -20,6 +20,9 @@ const watchText = (page) =>
 
 const sizeOf = ({ bytes }) => ({ width: bytes.readUInt32BE(16), height: bytes.readUInt32BE(20) });
 
+const picture = (page, plot, kind) =>
+  saved(page, page.locator(`[data-plot="${plot}"]`).getByRole('button', { name: kind, exact: true }));
+
 const hostOf = (page, plot) =>
   page
     .locator(`[data-plot="${plot}"] .plot`)
@@ -78,7 +81,7 @@ browserTest(
     };
     const host = await hostOf(page, 'spectrum');
     await watchText(page);
-    const image = await saved(page, '[data-plot="spectrum"] [data-export="png"]');
+    const image = await picture(page, 'spectrum', 'PNG');
     assertPng(image);
     const size = sizeOf(image);
     assert.equal(size.width, 2 * host.width);
@@ -87,7 +90,7 @@ browserTest(
     assertCaption(written, caption);
     assert.ok(written.includes('Angle spectrum') && written.includes('MUSIC'));
 
-    const drawing = await drawn(page, await saved(page, '[data-plot="spectrum"] [data-export="svg"]'));
+    const drawing = await drawn(page, await picture(page, 'spectrum', 'SVG'));
     assert.equal(drawing.root, 'svg');
     assert.equal(drawing.width, host.width, 'as large as on the screen');
     assert.equal(drawing.viewBox, `0 0 ${size.width} ${size.height}`, 'as fine as the image');
@@ -107,11 +110,10 @@ browserTest(
   { path: '#/capture', viewport: 'phone', scheme: 'dark', deviceScaleFactor: 2 },
   async ({ page }) => {
     await page.waitForSelector(READY['#/capture']);
-    const plot = '[data-plot="range-doppler"]';
-    await page.locator(plot).scrollIntoViewIfNeeded();
+    await page.locator('[data-plot="range-doppler"]').scrollIntoViewIfNeeded();
     const host = await hostOf(page, 'range-doppler');
-    assert.equal(sizeOf(await saved(page, `${plot} [data-export="png"]`)).width, 4 * host.width);
-    const drawing = await drawn(page, await saved(page, `${plot} [data-export="svg"]`));
+    assert.equal(sizeOf(await picture(page, 'range-doppler', 'PNG')).width, 4 * host.width);
+    const drawing = await drawn(page, await picture(page, 'range-doppler', 'SVG'));
     assert.deepEqual(drawing.images, [{ data: 'data:image/png;base64,', opacity: 1 }]);
     assert.ok(drawing.texts.includes('Range (m)') && drawing.texts.includes('Range-Doppler map'));
     assert.ok(drawing.dashed >= 1, 'the chosen cell’s crosshair');
@@ -132,13 +134,13 @@ for (const [path, ready, plot, settings, data] of [
   browserTest(`pictures: ${plot} and what is beside it have a caption in both forms`, { path }, async ({ page }) => {
     await page.waitForSelector(ready, { timeout: 80_000 });
     await watchText(page);
-    const image = await saved(page, `[data-plot="${plot}"] [data-export="png"]`);
+    const image = await picture(page, plot, 'PNG');
     assert.equal(sizeOf(image).width, 2 * (await hostOf(page, plot)).width);
     const title = await page.locator('h1').innerText();
     const caption = { page: title, settings, data, path };
     assertCaption(await page.evaluate(() => window.written), caption);
     for (const name of await page.locator('[data-plot]').evaluateAll((all) => all.map(({ dataset }) => dataset.plot))) {
-      const drawing = await drawn(page, await saved(page, `[data-plot="${name}"] [data-export="svg"]`));
+      const drawing = await drawn(page, await picture(page, name, 'SVG'));
       assertCaption(drawing.texts, caption);
     }
   });

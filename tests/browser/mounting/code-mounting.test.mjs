@@ -88,14 +88,14 @@ browserTest(
   async ({ page }) => {
     await settled(page, 'results', ['weighted-mean']);
     await drop(page, foreign());
-    await page.locator('[data-action="open-columns"]').click();
+    await page.getByRole('dialog').getByRole('button', { name: 'Open' }).click();
     await page.waitForSelector('[data-notice="place"]');
     const nothing = await codeOf(page);
     assert.equal(nothing.javascript.text, '');
     assert.match(nothing.javascript.lacks[0], /place is not known/);
-    await typeNumber(page.locator('input[name="xM"]'), '3.5');
+    await typeNumber(page.getByRole('spinbutton', { name: 'Ahead of rear axle' }), '3.5');
     await settled(page, 'results', ['weighted-mean']);
-    const { bytes } = await saved(page, '[data-action="save-session"]');
+    const { bytes } = await saved(page, page.getByRole('button', { name: 'Save session' }));
     const files = Object.fromEntries(
       Object.entries(unzipSync(bytes)).flatMap(([name, content]) =>
         name.startsWith('mounting/') ? [[name.slice('mounting/'.length), content]] : [],

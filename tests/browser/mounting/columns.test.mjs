@@ -7,11 +7,19 @@ import { findings } from '../site/axe.mjs';
 import { file, foreign, frames } from './foreign-tables.mjs';
 
 const path = '#/mounting?source=simulated&duration=5&methods=weighted-mean';
-const dialog = 'dialog.columns[open]';
+const dialog = (page) => page.getByRole('dialog', { name: 'What do the columns hold?' });
 const answer = '[aria-busy="false"] [data-row="weighted-mean"] [data-field="angleDeg"][data-value]';
 const counts = (page) => page.locator('[data-facts="counts"]').innerText();
-const select = (page, name) => page.locator(`${dialog} select[name="${name}"]`);
-const chosen = async (page, name) => select(page, name).inputValue();
+const table = (page, group) =>
+  dialog(page).getByRole('group', { name: group }).getByRole('combobox', { name: 'Table' });
+const select = (page, name) => dialog(page).getByRole('combobox', { name, exact: true });
+const chosen = (page, name) => select(page, name).inputValue();
+const open = (page) => dialog(page).getByRole('button', { name: 'Open', exact: true });
+const columns = (page) => page.getByRole('button', { name: 'Columns', exact: true });
+const sessionButton = (page) => page.getByRole('button', { name: 'Save session' });
+// It takes no room where nothing lacks.
+const lacking = (page, text) =>
+  dialog(page).getByRole('status').filter({ hasText: text }).waitFor({ state: 'attached' });
 
 /** Everything in one table, each detection with the car's motion; names tell little. */
 function together() {
@@ -28,7 +36,7 @@ async function given(page, files) {
 }
 
 async function assertAngle(page) {
-  await typeNumber(page.locator('input[name="xM"]'), '3.5');
+  await typeNumber(page.getByRole('spinbutton', { name: 'Ahead of rear axle' }), '3.5');
   await page.waitForSelector(answer);
   const [angle] = await values(page, answer);
   assert.ok(Math.abs(angle - 2) < 0.05, `${angle} deg`);
@@ -39,47 +47,41 @@ browserTest(
   { path },
   async ({ page }) => {
     await given(page, foreign());
-    await page.waitForSelector(dialog);
-    const names = [
-      'detections-table',
-      'motion-table',
-      'detections-azimuth_deg',
-      'detections-sensor',
-      'motion-speed_mps',
-    ];
-    assert.deepEqual(await Promise.all(names.map((name) => chosen(page, name))), [
-      'radar log.csv',
-      'car.csv.gz',
-      'Azimuth right [rad]',
-      'radarName',
-      'v_ego',
-    ]);
+    await dialog(page).waitFor();
+    assert.equal(await table(page, 'Detections').inputValue(), 'radar log.csv');
+    assert.equal(await table(page, 'Motion of the car').inputValue(), 'car.csv.gz');
     const details = {
-      'detections-time_s-unit': 'us',
-      'detections-azimuth_deg-unit': 'rad',
-      'detections-azimuth_deg-sign': 'flipped',
-      'detections-range_rate_mps-unit': 'km/h',
-      'detections-range_rate_mps-sign': 'flipped',
-      'motion-yaw_rate_degps-unit': 'rad/s',
-      'motion-yaw_rate_degps-sign': 'same',
+      'Column of azimuth, detections': 'Azimuth right [rad]',
+      'Column of sensor, detections': 'radarName',
+      'Column of speed, motion': 'v_ego',
+      'Unit of time, detections': 'us',
+      'Unit of azimuth, detections': 'rad',
+      'Positive values of azimuth, detections': 'flipped',
+      'Unit of range rate, detections': 'km/h',
+      'Positive values of range rate, detections': 'flipped',
+      'Unit of yaw rate, motion': 'rad/s',
+      'Positive values of yaw rate, motion': 'same',
     };
     for (const [name, expected] of Object.entries(details)) assert.equal(await chosen(page, name), expected, name);
     assert.match(await page.locator('[data-field="detections-azimuth_deg"]').innerText(), /−55\.00 deg/);
     assert.match(await page.locator('[data-preview="radar log.csv"]').innerText(), /0,959931/);
-    await page.locator('[data-action="open-columns"]').click();
-    await page.waitForSelector(dialog, { state: 'detached' });
+    await open(page).click();
+    await dialog(page).waitFor({ state: 'detached' });
     await page.waitForSelector('[data-notice="place"]');
     assert.match(await page.locator('.files.own').innerText(), /radar log\.csv[\s\S]*car\.csv\.gz/);
     assert.match(await counts(page), /Detections in the files\s*4.802[\s\S]*Without finite numbers\s*2/);
     await assertAngle(page);
 
     await reload(page);
-    await page.waitForSelector('[role="status"].notice');
+    await page
+      .getByRole('status')
+      .filter({ hasText: /files that are not here/ })
+      .waitFor();
     await drop(page, foreign());
     await page.waitForSelector(answer);
-    assert.equal(await page.locator(dialog).count(), 0, 'it is not asked again');
-    await page.locator('[data-action="columns"]').click();
-    assert.equal(await chosen(page, 'detections-azimuth_deg-sign'), 'flipped', 'and can be changed');
+    assert.equal(await dialog(page).count(), 0, 'it is not asked again');
+    await columns(page).click();
+    assert.equal(await chosen(page, 'Positive values of azimuth, detections'), 'flipped', 'and can be changed');
   },
 );
 
@@ -93,23 +95,23 @@ browserTest('columns: places in metres stand in for azimuth and range', { path }
   }
   radar.push('23,,1,0');
   await given(page, [file('targets.csv', radar), file('motion.csv', car)]);
-  await page.waitForSelector(dialog);
+  await dialog(page).waitFor();
   for (const [name, expected] of Object.entries({
-    'detections-azimuth_deg': '',
-    'detections-x_m': 'X [m]',
-    'detections-y_m': 'Y right [m]',
-    'detections-y_m-sign': 'flipped',
+    'Column of azimuth, detections': '',
+    'Column of x, along boresight, detections': 'X [m]',
+    'Column of y, across, detections': 'Y right [m]',
+    'Positive values of y, across, detections': 'flipped',
   }))
     assert.equal(await chosen(page, name), expected, name);
   const first = (name) => page.locator(`[data-field="detections-${name}"] td`).last().innerText();
   assert.equal(await first('azimuth_deg'), '−55.00 deg');
   assert.equal(await first('range_m'), '10.00 m');
   assert.equal(await first('y_m'), '−8.192 m');
-  assert.equal(await page.locator('[data-columns="lacking"]').innerText(), '');
-  await select(page, 'detections-y_m').selectOption('');
-  assert.match(await page.locator('[data-columns="lacking"]').innerText(), /azimuth of the detections/);
-  await select(page, 'detections-y_m').selectOption('Y right [m]');
-  await page.locator('[data-action="open-columns"]').click();
+  await lacking(page, /^$/);
+  await select(page, 'Column of y, across, detections').selectOption('');
+  await lacking(page, /azimuth of the detections/);
+  await select(page, 'Column of y, across, detections').selectOption('Y right [m]');
+  await open(page).click();
   await page.waitForSelector('[data-notice="place"]');
   assert.match(await counts(page), /Detections in the files\s*4.801[\s\S]*Without finite numbers\s*1/);
   await assertAngle(page);
@@ -117,31 +119,25 @@ browserTest('columns: places in metres stand in for azimuth and range', { path }
 
 browserTest('columns: one table holds detections and motion, chosen by keyboard', { path }, async ({ page }) => {
   await given(page, together());
-  await page.waitForSelector(dialog);
-  assert.equal(await chosen(page, 'detections-time_s'), 't');
-  assert.match(await page.locator('[data-columns="lacking"]').innerText(), /azimuth of the detections, range rate/);
-  assert.ok(await page.locator('[data-action="open-columns"]').isDisabled());
-  const type = async (name, keys) => {
-    for (let tabs = 0; tabs < 60; tabs++) {
-      if ((await page.evaluate(() => document.activeElement.name)) === name) break;
+  await dialog(page).waitFor();
+  assert.equal(await chosen(page, 'Column of time, detections'), 't');
+  await lacking(page, /azimuth of the detections, range rate/);
+  assert.ok(await open(page).isDisabled());
+  const type = async (control, keys) => {
+    for (let tabs = 0; tabs < 60 && !(await control.evaluate((node) => node === document.activeElement)); tabs++)
       await page.keyboard.press('Tab');
-    }
-    assert.equal(await page.evaluate(() => document.activeElement.name), name);
+    assert.ok(await control.evaluate((node) => node === document.activeElement), `${control}`);
     await page.keyboard.press(keys);
   };
-  await type('detections-azimuth_deg', 'a');
-  await type('detections-range_rate_mps', 'b');
-  await type('motion-table', 'a');
-  await type('motion-yaw_rate_degps', 'd');
-  await type('motion-speed_mps', 'c');
-  await type('motion-speed_mps-unit', 'k');
-  assert.equal(await chosen(page, 'detections-azimuth_deg-unit'), 'deg');
-  assert.equal(await chosen(page, 'motion-yaw_rate_degps-unit'), 'rad/s');
-  for (let tabs = 0; tabs < 60; tabs++) {
-    if ((await page.evaluate(() => document.activeElement.dataset.action)) === 'open-columns') break;
-    await page.keyboard.press('Tab');
-  }
-  await page.keyboard.press('Enter');
+  await type(select(page, 'Column of azimuth, detections'), 'a');
+  await type(select(page, 'Column of range rate, detections'), 'b');
+  await type(table(page, 'Motion of the car'), 'a');
+  await type(select(page, 'Column of yaw rate, motion'), 'd');
+  await type(select(page, 'Column of speed, motion'), 'c');
+  await type(select(page, 'Unit of speed, motion'), 'k');
+  assert.equal(await chosen(page, 'Unit of azimuth, detections'), 'deg');
+  assert.equal(await chosen(page, 'Unit of yaw rate, motion'), 'rad/s');
+  await type(open(page), 'Enter');
   await page.waitForSelector('[data-notice="place"]');
   assert.match(await counts(page), /Motion samples\s*300/);
   await assertAngle(page);
@@ -153,53 +149,56 @@ browserTest(
   async ({ page }) => {
     const [radar, car] = foreign();
     await given(page, [radar, car]);
-    await page.waitForSelector(dialog);
+    await dialog(page).waitFor();
     await page.keyboard.press('Escape');
-    await page.waitForSelector(dialog, { state: 'detached' });
+    await dialog(page).waitFor({ state: 'detached' });
     assert.match(await page.locator('[data-fact="name"]').innerText(), /seed/);
-    assert.match(
-      await page.locator('[role="alert"][data-error]').innerText(),
-      /The drive opened before is still shown/,
-    );
-    await page.locator('[data-action="columns"]').click();
-    await page.waitForSelector(dialog);
-    await select(page, 'detections-azimuth_deg').selectOption('Distance (m)');
-    await select(page, 'detections-azimuth_deg-unit').selectOption('rad');
-    await page.locator('[data-action="open-columns"]').click();
-    await page.waitForSelector('[data-columns="problem"]');
-    assert.match(await page.locator('[data-columns="problem"]').innerText(), /at most one turn/);
-    await select(page, 'detections-azimuth_deg').selectOption('Azimuth right [rad]');
-    await page.locator('[data-action="open-columns"]').click();
+    await page
+      .getByRole('alert')
+      .filter({ hasText: /The drive opened before is still shown/ })
+      .waitFor();
+    await columns(page).click();
+    await dialog(page).waitFor();
+    await select(page, 'Column of azimuth, detections').selectOption('Distance (m)');
+    await select(page, 'Unit of azimuth, detections').selectOption('rad');
+    await open(page).click();
+    await dialog(page)
+      .getByRole('alert')
+      .filter({ hasText: /at most one turn/ })
+      .waitFor();
+    await select(page, 'Column of azimuth, detections').selectOption('Azimuth right [rad]');
+    await open(page).click();
     await page.waitForSelector('[data-notice="place"]');
-    assert.equal(await page.locator('[role="alert"][data-error]').count(), 0);
+    assert.equal(await page.getByRole('alert').count(), 0);
   },
 );
 
 browserTest('columns: templates open as they are', { path }, async ({ page }) => {
   await page.waitForSelector(answer);
-  await page.locator('summary', { hasText: 'About this page' }).click();
+  await page.getByText('About this page').click();
   const templates = [];
-  for (const group of ['detections', 'motion']) templates.push(await saved(page, `[data-template="${group}"]`));
+  for (const group of ['detections', 'motion'])
+    templates.push(await saved(page, page.getByRole('button', { name: `template-${group}.csv` })));
   await drop(page, templates);
-  await page.waitForFunction(() => document.querySelector('[data-fact="name"]')?.textContent.includes('csv'));
+  await page.locator('[data-fact="name"]').filter({ hasText: 'csv' }).waitFor();
   assert.match(await counts(page), /Detections in the files\s*2\s*Motion samples\s*2$/);
-  assert.equal(await page.locator(dialog).count(), 0);
+  assert.equal(await dialog(page).count(), 0);
 });
 
 browserTest('columns: a session has the tables as they were read', { path }, async ({ page, browser, url }) => {
   await given(page, foreign());
-  await page.waitForSelector(dialog);
-  await page.locator('[data-action="open-columns"]').click();
+  await dialog(page).waitFor();
+  await open(page).click();
   await page.waitForSelector('[data-notice="place"]');
-  const { bytes } = await saved(page, '[data-action="save-session"]');
+  const { bytes } = await saved(page, sessionButton(page));
   const context = await browser.newContext();
   const other = await context.newPage();
   await other.goto(`${url}#/networks`);
-  await other.waitForSelector('[data-action="save-session"]:enabled');
+  await sessionButton(other).and(other.locator(':enabled')).waitFor();
   await drop(other, [{ name: 'drive.boresight', bytes }]);
   await other.waitForSelector('[data-notice="place"]');
   assert.match(await counts(other), /Detections in the files\s*4.802[\s\S]*Without finite numbers\s*2/);
-  assert.equal(await other.locator(dialog).count(), 0, 'nobody is asked');
+  assert.equal(await dialog(other).count(), 0, 'nobody is asked');
   await context.close();
 });
 
@@ -209,7 +208,7 @@ for (const [viewport, scheme] of [
 ])
   browserTest(`columns: axe has no finding, ${viewport}, ${scheme}`, { path, viewport, scheme }, async ({ page }) => {
     await given(page, foreign());
-    await page.waitForSelector(dialog);
+    await dialog(page).waitFor();
     assert.deepEqual(await findings(page), []);
     const { width, right } = await page
       .locator('[data-field="detections-azimuth_deg"]')

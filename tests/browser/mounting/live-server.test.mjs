@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { createServer } from 'node:net';
 import { after, before } from 'node:test';
+import { setTimeout } from 'node:timers/promises';
 import { calibrateDrive } from 'boresight';
 import { WebSocketServer } from 'ws';
 import { drive, messages, pointCloud } from '../../viewers/messages.mjs';
@@ -53,22 +54,36 @@ const history = (page) =>
     return { timeS: Array.from(timeS), angleDeg: Array.from(angleDeg), sigmaDeg: Array.from(sigmaDeg) };
   });
 
+const field = (page, role, name) => page.getByRole(role, { name, exact: true });
+const serverField = (page) => field(page, 'textbox', 'Server');
+const placeAhead = (page) => field(page, 'spinbutton', 'Ahead of rear axle');
+const nominalAngle = (page) => field(page, 'spinbutton', 'Nominal angle');
+const notice = (page, text) => page.locator('[data-notice="live"]').filter({ hasText: text }).waitFor();
+/** Waits until a field holds a text by itself. */
+const holds = async (page, control, text) =>
+  page.waitForFunction(([input, wanted]) => input.value === wanted, [await control.elementHandle(), text]);
+
+/** Waits until something is so on the server's side, which no page tells of. */
+async function until(holds, what) {
+  for (let tries = 0; tries < 400; tries++) {
+    if (holds()) return;
+    await setTimeout(25);
+  }
+  assert.fail(what());
+}
+
 /** Types an address and connects by the keyboard. */
 async function connectTo(page, given) {
-  await typeText(page.locator('input[name="server"]'), given);
-  const button = page.locator('[data-action="connect"]');
-  await button.focus();
-  await page.keyboard.press('Enter');
+  await typeText(serverField(page), given);
+  await field(page, 'button', 'Connect').press('Enter');
 }
 
 /** Waits until the page has subscribed to topics. */
-async function subscribed(server, ...topics) {
-  for (let tries = 0; tries < 400; tries++) {
-    if (topics.every((topic) => server.topics().includes(topic))) return;
-    await new Promise((resolve) => setTimeout(resolve, 25));
-  }
-  assert.fail(`subscribed to ${server.topics()}`);
-}
+const subscribed = (server, ...topics) =>
+  until(
+    () => topics.every((topic) => server.topics().includes(topic)),
+    () => `subscribed to ${server.topics()}`,
+  );
 
 /** Takes away what Chromium itself reports of sockets that are refused. */
 function expectRefused(problems) {
@@ -93,21 +108,20 @@ browserTest(
   { path, sockets: LOCAL },
   async ({ page, screenshot }) => {
     const server = await serve(BORESIGHT);
-    assert.equal(await page.locator('input[name="server"]').inputValue(), 'ws://127.0.0.1:8765');
+    assert.equal(await serverField(page).inputValue(), 'ws://127.0.0.1:8765');
     await page.waitForSelector('[data-verdict="awaited"]');
     await connectTo(page, address(server));
     await connection(page, 'connected');
-    assert.match(await page.locator('[data-connection]').innerText(), /Connected to a car/);
+    await page.getByText('Connected to a car').waitFor();
     await subscribed(server, '/radar/1/detections', '/car/motion', '/radar/1/transform', '/radar/1/mounting');
     assert.ok(!server.topics().includes('/radar/2/mounting'), 'the nominal angle of another radar is not asked for');
     const all = messages(made, 'boresight');
     // A frame's name comes with its first scan.
     server.send(all.filter(({ topic }) => topic === '/radar/1/detections').slice(0, 1));
-    await page.waitForSelector('[data-notice="live"]');
-    assert.match(await page.locator('[data-notice="live"]').innerText(), /does not say where the radar is/);
+    await notice(page, 'does not say where the radar is');
     server.send(PLACED);
-    await page.waitForFunction(() => document.querySelector('input[name="xM"]').value === '3.6');
-    assert.equal(await page.locator('input[name="nominal"]').inputValue(), '30');
+    await holds(page, placeAhead(page), '3.6');
+    await holds(page, nominalAngle(page), '30');
     await server.play(all, { each: 100 });
     await factIs(page, 'scans', made.frames.length - 2);
     const { timeS, angleDeg, sigmaDeg } = await history(page);
@@ -132,10 +146,12 @@ browserTest(
     assert.equal((await history(page)).timeS.length, timeS.length);
     await connection(page, 'connected');
     // Another drive ends it.
-    await page.locator('select[name="source"]').selectOption('delphi');
+    await field(page, 'combobox', 'Drive').selectOption('delphi');
     await page.waitForFunction(() => !document.querySelector('[data-connection]'));
-    for (let tries = 0; server.sockets.clients.size > 0 && tries < 200; tries++) await page.waitForTimeout(25);
-    assert.equal(server.sockets.clients.size, 0);
+    await until(
+      () => server.sockets.clients.size === 0,
+      () => `${server.sockets.clients.size} clients`,
+    );
   },
 );
 
@@ -146,19 +162,19 @@ browserTest(
     const server = await serve(ROS);
     await connectTo(page, address(server));
     await subscribed(server, '/radar/scan', '/odometry');
-    await typeNumber(page.locator('input[name="xM"]'), '3.6');
-    await typeNumber(page.locator('input[name="yM"]'), '0.7');
-    await typeNumber(page.locator('input[name="nominal"]'), '30');
-    await page.locator('select[name="azimuthSign"]').selectOption('right');
-    await page.locator('select[name="rangeRateSign"]').selectOption('closing');
+    await typeNumber(placeAhead(page), '3.6');
+    await typeNumber(field(page, 'spinbutton', 'Left of centre line'), '0.7');
+    await typeNumber(nominalAngle(page), '30');
+    await field(page, 'combobox', 'Azimuth positive').selectOption('right');
+    await field(page, 'combobox', 'Range rate positive').selectOption('closing');
     await parametersWith(page, (state) => state.get('rangeRateSign') === 'closing' && state.get('nominal') === '30');
     await server.play(messages(made, 'ros', { azimuth: -1, rangeRate: -1 }), { each: 100 });
     await factIs(page, 'scans', made.frames.length - 2);
     const { angleDeg, sigmaDeg } = await history(page);
     assert.ok(Math.abs(angleDeg.at(-1) - made.sensor.yawDeg) < 4 * sigmaDeg.at(-1), `${angleDeg.at(-1)}`);
-    const before = angleDeg.length;
-    await page.locator('[data-action="begin-anew"]').click();
-    assert.ok(before > 30 && (await history(page)).timeS.length === 0);
+    assert.ok(angleDeg.length > 30);
+    await field(page, 'button', 'Begin anew').click();
+    await page.waitForFunction(() => document.querySelector('[data-plot="live-angle"]').history.timeS.length === 0);
   },
 );
 
@@ -172,13 +188,13 @@ browserTest(
     await connectTo(page, address(first));
     await subscribed(first, '/radar/1/detections', '/car/motion');
     first.send([...all.slice(0, 5), ...PLACED]);
-    await page.waitForFunction(() => document.querySelector('input[name="nominal"]').value === '30');
+    await holds(page, nominalAngle(page), '30');
     await first.play(all.slice(5, 2000), { each: 100 });
     await factIs(page, 'scans', 200);
     const before = await history(page);
     await first.close();
     await connection(page, 'waiting');
-    assert.match(await page.locator('[data-notice="live"]').innerText(), /boresight serve DRIVE/);
+    await notice(page, 'boresight serve DRIVE');
     const second = await serve(BORESIGHT, { port });
     await connection(page, 'connected');
     await subscribed(second, '/radar/1/detections', '/car/motion');
@@ -197,12 +213,10 @@ browserTest(
       before.timeS.at(-1),
     );
     // The counts follow a quarter of a second behind.
-    await page.waitForFunction(() =>
-      /2, 1 times anew/.test(document.querySelector('[data-fact="connections"]').textContent),
-    );
+    await page.locator('[data-fact="connections"]').filter({ hasText: '2, 1 times anew' }).waitFor();
     second.drop();
     await connection(page, 'waiting');
-    await page.locator('[data-action="disconnect"]').click();
+    await field(page, 'button', 'Cancel').click();
     await connection(page, 'idle');
     expectRefused(problems);
   },
@@ -212,15 +226,14 @@ browserTest(
   'live server: wrong addresses, none that answers, and cancel',
   { path, sockets: LOCAL, viewport: 'phone', scheme: 'dark' },
   async ({ page, problems, screenshot }) => {
-    await page.locator('button', { hasText: 'drive and settings' }).click();
-    const field = page.locator('input[name="server"]');
+    await page.getByRole('button', { name: 'Show drive and settings' }).click();
     for (const [text, expected] of [
       ['ws://192.168.1.5:8765', /Only servers of this machine/],
       ['http://127.0.0.1:8765', /address like ws:/],
       ['nonsense', /address like ws:/],
     ]) {
-      await typeText(field, text);
-      assert.match(await page.locator('[role="alert"]:visible').innerText(), expected);
+      await typeText(serverField(page), text);
+      await page.getByRole('alert').filter({ hasText: expected }).waitFor();
       assert.equal(parameters(page).get('server'), null);
     }
     // Nothing listens there.
@@ -233,20 +246,17 @@ browserTest(
     await connectTo(page, `ws://localhost:${free}`);
     await connection(page, 'waiting');
     await parametersWith(page, (state) => state.get('server') === `ws://localhost:${free}`);
-    assert.match(
-      await page.locator('[data-notice="live"]').innerText(),
-      new RegExp(`answers at ws://localhost:${free}`),
-    );
-    await page.locator('[data-action="disconnect"]').click();
+    await notice(page, `answers at ws://localhost:${free}`);
+    await field(page, 'button', 'Cancel').click();
     await connection(page, 'idle');
-    assert.equal(await page.locator('[data-notice="live"]').count(), 0);
+    await page.locator('[data-notice="live"]').waitFor({ state: 'detached' });
     assert.ok(expectRefused(problems) >= 1);
     // One that takes the connection and speaks no WebSocket.
     const mute = createServer((socket) => socket.on('error', () => {})).listen(0, '127.0.0.1');
     await new Promise((resolve) => mute.once('listening', resolve));
     await connectTo(page, `ws://127.0.0.1:${mute.address().port}`);
     await connection(page, 'connecting');
-    await page.locator('[data-action="disconnect"]').click();
+    await field(page, 'button', 'Cancel').click();
     await connection(page, 'idle');
     mute.close();
     assert.deepEqual(await findings(page), []);
@@ -310,11 +320,13 @@ browserTest(
     /** Waits for the next subscription to a channel. */
     const asked = async (channel, times = 1) => {
       const count = () => subscriptions.filter(({ channelId }) => channelId === channel).length;
-      for (let tries = 0; count() < times && tries < 200; tries++) await page.waitForTimeout(25);
-      assert.equal(count(), times);
+      const told = () => `${count()} subscriptions to ${channel}`;
+      await until(() => count() >= times, told);
+      assert.equal(count(), times, told());
     };
     await asked(2);
-    await page.locator('select[name="scanTopic"]').selectOption(channels[0].topic);
+    const scans = field(page, 'combobox', 'Scans');
+    await scans.selectOption(channels[0].topic);
     await asked(1);
     const idOf = (channel) => subscriptions.findLast(({ channelId }) => channelId === channel).id;
     const send = (channel, bytes) => {
@@ -323,7 +335,7 @@ browserTest(
       header.writeUInt32LE(idOf(channel), 1);
       socket.send(Buffer.concat([header, Buffer.from(bytes)]));
     };
-    await typeNumber(page.locator('input[name="xM"]'), '3.6');
+    await typeNumber(placeAhead(page), '3.6');
     const good = pointCloud(made.frames[0]);
     for (const one of [
       'null',
@@ -341,7 +353,7 @@ browserTest(
     // More than a page takes of one message.
     send(1, Buffer.alloc(40 * 2 ** 20));
     for (const one of ['{"speedMps":1}', '{"yawRateDegps":1e999}', 'x']) send(2, one);
-    await page.locator('select[name="scanTopic"]').selectOption('/cdr');
+    await scans.selectOption('/cdr');
     await asked(3, 2);
     // Lengths of CDR that no bytes are behind.
     for (const bytes of [[], [0, 1, 0, 0], [0, 1, 0, 0, ...Buffer.alloc(60, 255)], Buffer.alloc(5000, 127)])
@@ -349,17 +361,14 @@ browserTest(
     const before = await fact(page, 'malformed');
     for (let i = 0; i < 5000; i++) send(3, [i % 256]);
     await factIs(page, 'malformed', before + 5000);
-    assert.match(
-      await page.locator('[data-notice="malformed"]').innerText(),
-      /messages were left out. The last: \/cdr/,
-    );
+    await page.getByText(/messages were left out. The last: \/cdr/).waitFor();
     // The page works on: the next good scans and motion are taken.
-    await page.locator('select[name="scanTopic"]').selectOption(channels[0].topic);
+    await scans.selectOption(channels[0].topic);
     await asked(1, 2);
     for (const { topic, message } of messages(made, 'boresight').slice(0, 2500))
       send(topic === '/car/motion' ? 2 : 1, JSON.stringify(message));
     await page.waitForFunction(() => document.querySelector('[data-plot="live-angle"]')?.history.timeS.length > 10);
-    await page.locator('[data-action="disconnect"]').click();
+    await field(page, 'button', 'Disconnect').click();
     await connection(page, 'idle');
     assert.ok((await history(page)).timeS.length > 10, 'what was found stays');
     expectRefused(problems);

@@ -23,6 +23,27 @@ const golden = (name) => join(root, 'tests', 'golden', name);
 const cell = (method, field) => `[aria-busy="false"] [data-row="${method}"] [data-field="${field}"]`;
 const ready = (page, method = 'recursive') => page.waitForSelector(`${cell(method, 'angleDeg')}[data-value]`);
 const value = async (page, method, field) => (await values(page, cell(method, field)))[0];
+const field = (scope, role, name) => scope.getByRole(role, { name, exact: true });
+const placeAhead = (page) => field(page, 'spinbutton', 'Ahead of rear axle');
+const timeSlider = (page) => field(page, 'slider', 'Time');
+const alert = (page) => page.getByRole('alert');
+const plot = (page, name) => page.locator(`[data-plot="${name}"]`);
+const results = (page) => page.getByRole('region', { name: /^Mounting angle of radar \d$/ });
+const save = (scope, kind) => field(scope, 'button', kind);
+/** Waits until a drive is open whose name and format are such. */
+const driveIs = (page, name) => page.locator('[data-fact="name"]').filter({ hasText: name }).waitFor();
+const drawn = (page) =>
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+const atFrame = (page, number) => field(page, 'region', 'Time').getByText(`frame ${number} of`).waitFor();
+/** Waits until the frame that is shown lies between two. */
+const frameBetween = (page, low, high) =>
+  page.waitForFunction(
+    ([low, high]) => {
+      const [, at] = /frame (\d+) of/.exec(document.querySelector('output[data-time]').textContent);
+      return Number(at) > low && Number(at) < high;
+    },
+    [low, high],
+  );
 const frameNumber = async (page) =>
   Number(/frame (\d+) of/.exec(await page.locator('output[data-time]').innerText())[1]);
 
@@ -92,29 +113,26 @@ browserTest(
     await ready(page, 'weighted-mean');
     const before = await frameNumber(page);
     assert.ok(Math.abs(before - 2005) < 10, `frame ${before} at 100 s`);
-    const slider = page.locator('input[name="time"]');
-    await slider.press('ArrowRight');
-    assert.equal(await frameNumber(page), before + 1);
-    await page.locator('[data-plot="birds-eye"] .plot').press('Shift+ArrowRight');
-    assert.equal(await frameNumber(page), before + 11);
+    await timeSlider(page).press('ArrowRight');
+    await atFrame(page, before + 1);
+    await plot(page, 'birds-eye').getByRole('application').press('Shift+ArrowRight');
+    await atFrame(page, before + 11);
     await page.locator('#content').evaluate((node) => node.focus());
     await page.keyboard.press('ArrowLeft');
-    assert.equal(await frameNumber(page), before + 10);
-    assert.match(
-      await page.locator('[data-plot="doppler-azimuth"] figcaption').innerText(),
-      new RegExp(`frame ${before + 10}:`),
-    );
+    await atFrame(page, before + 10);
+    await plot(page, 'doppler-azimuth')
+      .locator('figcaption')
+      .filter({ hasText: `frame ${before + 10}:` })
+      .waitFor();
     await page.keyboard.press('Space');
-    await page.waitForSelector('[data-action="play"][aria-pressed="true"]');
-    await page.waitForFunction(
-      (from) => Number(/frame (\d+) of/.exec(document.querySelector('output[data-time]').textContent)[1]) > from + 5,
-      before + 10,
-    );
+    await page.getByRole('button', { name: 'Pause', pressed: true }).waitFor();
+    await frameBetween(page, before + 15, 12_003);
     await page.keyboard.press('Space');
-    await page.waitForSelector('[data-action="play"][aria-pressed="false"]');
-    const over = page.locator('[data-plot="angle-history"] .u-over');
+    await page.getByRole('button', { name: 'Play', pressed: false }).waitFor();
+    // A click on a plot over time goes there.
+    const over = plot(page, 'angle-history').locator('.u-over');
     await over.click({ position: { x: (await over.boundingBox()).width / 2, y: 40 } });
-    assert.ok(Math.abs((await frameNumber(page)) - 6000) < 40, 'a click on a plot over time goes there');
+    await frameBetween(page, 5960, 6040);
   },
 );
 
@@ -123,15 +141,16 @@ browserTest(
   { path: '#/mounting?methods=weighted-mean' },
   async ({ page }) => {
     await ready(page, 'weighted-mean');
-    const readout = async (plot) => {
-      const over = page.locator(`[data-plot="${plot}"] .u-over`);
+    const readout = async (name) => {
+      const over = plot(page, name).locator('.u-over');
       const { width, height } = await over.boundingBox();
       await over.hover({ position: { x: width / 2, y: height / 2 } });
-      return page.locator(`[data-plot="${plot}"] .readout`).innerText();
+      await drawn(page);
+      return plot(page, name).locator('.readout').innerText();
     };
     const numbers = (text) => [...text.replaceAll('−', '-').matchAll(/[+-]?\d+\.\d+/g)].map(Number);
     const [, middle] = numbers(await readout('angle-history'));
-    const { x, y, width, height } = await page.locator('[data-plot="angle-history"] .u-over').boundingBox();
+    const { x, y, width, height } = await plot(page, 'angle-history').locator('.u-over').boundingBox();
     await page.mouse.move(x + width / 2, y + 2);
     await page.mouse.down();
     await page.mouse.move(x + width * 0.75, y + height / 2, { steps: 5 });
@@ -140,7 +159,7 @@ browserTest(
     assert.ok(Math.abs(time - 375) < 3, `${time} s`);
     assert.ok(angle > middle + 0.02, `${angle} degrees, ${middle} before`);
     assert.ok(Math.abs(numbers(await readout('frame-weights'))[0] - 375) < 3, 'the other plot has the same time');
-    await page.locator('[data-plot="frame-weights"] .plot').press('0');
+    await plot(page, 'frame-weights').getByRole('application').press('0');
     assert.ok(Math.abs(numbers(await readout('angle-history'))[0] - 300) < 3, 'and shows all of it again');
   },
 );
@@ -153,14 +172,14 @@ browserTest(
     await drop(page, tables());
     await page.waitForSelector('[data-notice="place"]');
     assert.equal(await page.locator('[data-field="truth"]').count(), 0, 'nothing is known of the true angle');
-    await typeNumber(page.locator('input[name="xM"]'), '3.5');
+    await typeNumber(placeAhead(page), '3.5');
     await ready(page, 'weighted-mean');
     for (const method of ['weighted-mean', 'recursive']) {
       const angle = await value(page, method, 'angleDeg');
       assert.ok(Math.abs(angle - 2) < 0.1, `${method}: ${angle}`);
       assert.equal(await page.locator(cell(method, 'misaligned')).innerText(), '–', 'no alarm without a nominal angle');
     }
-    await typeNumber(page.locator('input[name="nominal"]'), '2');
+    await typeNumber(field(page, 'spinbutton', 'Nominal angle'), '2');
     await page.waitForFunction(
       (selector) => document.querySelector(selector)?.textContent === 'no',
       cell('recursive', 'misaligned'),
@@ -168,8 +187,10 @@ browserTest(
     assert.match(await page.locator('[data-plot="trajectory"] .legend').innerText(), /Speed and yaw rate as measured/);
     await parametersWith(page, (params) => params.get('source') === 'files' && params.get('xM') === '3.5');
     await reload(page);
-    await page.waitForSelector('[role="status"].notice');
-    assert.match(await page.locator('[role="status"].notice').innerText(), /files that are not here/);
+    await page
+      .getByRole('status')
+      .filter({ hasText: /files that are not here/ })
+      .waitFor();
   },
 );
 
@@ -178,8 +199,8 @@ browserTest(
   { path: '#/mounting?source=simulated&duration=5&methods=weighted-mean' },
   async ({ page }) => {
     await page.waitForSelector('[data-fact="name"]');
-    await page.locator('[name="drive-folder"]').setInputFiles(recordings('delphi'));
-    await page.waitForFunction(() => /delphi, delphi/.test(document.querySelector('[data-fact="name"]').textContent));
+    await page.getByLabel('Drive folder').setInputFiles(recordings('delphi'));
+    await driveIs(page, 'delphi, delphi');
     await ready(page, 'weighted-mean');
     assert.match(await page.locator('.files').innerText(), /front_radar\.csv\.gz[\s\S]*pose_10hz\.csv\.gz/);
     // What a file manager drops cannot be made by a script; its folder is, with the files that are in it.
@@ -205,7 +226,7 @@ browserTest(
       },
       [...tables().map(({ name, bytes }) => ({ name, text: bytes.toString() })), { name: 'notes.txt', text: 'hello' }],
     );
-    await page.waitForFunction(() => /mine, csv/.test(document.querySelector('[data-fact="name"]').textContent));
+    await driveIs(page, 'mine, csv');
   },
 );
 
@@ -215,14 +236,12 @@ browserTest(
   async ({ page }) => {
     await page.waitForSelector('[data-fact="name"]');
     await drop(page, [{ name: 'radar_data.h5', bytes: readFileSync(golden('radarscenes/deflated.h5')) }]);
-    await page.waitForFunction(() =>
-      /radar_data, radarscenes/.test(document.querySelector('[data-fact="name"]').textContent),
-    );
+    await driveIs(page, 'radar_data, radarscenes');
     await page.waitForSelector(`${cell('recursive', 'sigmaDeg')}[data-value]`);
     assert.equal(await page.locator(cell('recursive', 'sigmaDeg')).innerText(), 'not determined');
     assert.equal(await page.locator(cell('recursive', 'angleDeg')).innerText(), '–');
     assert.match(await page.locator('[data-table="results"] .warnings').innerText(), /no-frames/);
-    assert.equal(await page.locator('select[name="sensor"] option').count(), 2);
+    assert.equal(await field(page, 'combobox', 'Radar').getByRole('option').count(), 2);
     assert.match(
       await page.locator('[data-plot="birds-eye"] .legend').innerText(),
       /Ring: moving by the drive’s own labels/,
@@ -236,12 +255,12 @@ browserTest(
   async ({ page }) => {
     await page.waitForSelector('[data-fact="name"]');
     await drop(page, clouds());
-    await page.waitForFunction(() => /, pcd/.test(document.querySelector('[data-fact="name"]').textContent));
+    await driveIs(page, ', pcd');
     await ready(page);
     assert.ok(Math.abs((await value(page, 'recursive', 'angleDeg')) - 2) < 0.1);
-    assert.equal(await page.locator('input[name="xM"]').inputValue(), '3.5');
-    const remarks = page.locator('[aria-labelledby="dropped-title"] .warnings');
-    assert.match(await remarks.innerText(), /differences of the poses/);
+    assert.equal(await placeAhead(page).inputValue(), '3.5');
+    const remarks = page.getByRole('region', { name: 'What was left out of the files, and remarks' });
+    await remarks.getByText(/differences of the poses/).waitFor();
   },
 );
 
@@ -267,16 +286,13 @@ browserTest(
       ],
     ]) {
       await drop(page, files);
-      await page.waitForFunction((wanted) => document.querySelector('[role="alert"]')?.dataset.error === wanted, code);
-      assert.match(
-        await page.locator('[role="alert"]').innerText(),
-        files.length === 1 ? new RegExp(files[0].name) : /2 files/,
-      );
+      const named = files.length === 1 ? files[0].name : '2 files';
+      await alert(page).filter({ hasText: code }).filter({ hasText: named }).waitFor();
       assert.equal(await value(page, 'weighted-mean', 'angleDeg'), before, 'the drive opened before is still shown');
     }
     await drop(page, [detections, motion]);
     await page.waitForSelector('[data-notice="place"]');
-    assert.equal(await page.locator('[role="alert"]').count(), 0);
+    assert.equal(await alert(page).count(), 0);
   },
 );
 
@@ -284,14 +300,14 @@ browserTest(
   'mounting angle: work is cancelled and taken up again, and a change starts it anew',
   { path: '#/mounting?methods=least-squares' },
   async ({ page }) => {
-    const { value: share, max } = await clickWhenThere(page, '[data-progress] [data-action="cancel"]');
+    const { value: share, max } = await clickWhenThere(page, '[data-progress] button');
     assert.ok(share >= 0 && share < max, `${share} of ${max}`);
     await page.waitForSelector('[data-cancelled]');
     assert.equal(await page.locator('[data-row="least-squares"] [data-field="angleDeg"]').count(), 0);
-    await page.locator('[data-action="resume"]').click();
+    await field(page, 'button', 'Calibrate again').click();
     await ready(page, 'least-squares');
     const used = await value(page, 'least-squares', 'used');
-    await typeNumber(page.locator('input[name="minSpeed"]'), '10');
+    await typeNumber(field(page, 'spinbutton', 'Slowest'), '10');
     await page.waitForFunction(
       ([selector, before]) => Number(document.querySelector(selector)?.dataset.value) < before,
       [cell('least-squares', 'used'), used],
@@ -304,10 +320,10 @@ browserTest(
   'mounting angle: opening is cancelled and taken up again',
   { path: '#/mounting?source=simulated&duration=300&methods=weighted-mean' },
   async ({ page }) => {
-    await clickWhenThere(page, '[data-opening] [data-action="cancel-opening"]');
+    await clickWhenThere(page, '[data-opening] button');
     await page.waitForSelector('[data-interrupted]');
     assert.equal(await page.locator('[data-fact="name"]').count(), 0);
-    await typeNumber(page.locator('input[name="duration"]'), '10');
+    await typeNumber(field(page, 'spinbutton', 'Duration'), '10');
     await page.waitForSelector('[data-fact="name"]');
     await ready(page, 'weighted-mean');
     assert.equal(await page.locator('[data-interrupted]').count(), 0);
@@ -328,11 +344,11 @@ browserTest(
       const [error, sigma] = [await value(page, method, 'error'), await value(page, method, 'sigmaDeg')];
       assert.ok(Math.abs(error) < 5 * sigma && sigma < 0.5, `${method}: ${error} +- ${sigma}`);
     }
-    await page.locator('select[name="sensor"]').selectOption('3');
-    await page.waitForFunction(() => /radar 3/.test(document.querySelector('#angles-title').textContent));
+    await field(page, 'combobox', 'Radar').selectOption('3');
+    await field(page, 'region', 'Mounting angle of radar 3').waitFor();
     await ready(page);
-    await page.locator('input[name="time"]').press('ArrowRight');
-    await page.locator('select[name="band"]').selectOption('2');
+    await timeSlider(page).press('ArrowRight');
+    await field(page, 'combobox', 'Band').selectOption('2');
     await parametersWith(
       page,
       (params) => params.get('sensor') === '3' && params.get('band') === '2' && params.has('t'),
@@ -349,7 +365,7 @@ browserTest(
       [await frameNumber(page), await value(page, 'recursive', 'angleDeg'), await value(page, 'kabsch', 'angleDeg')],
       shown,
     );
-    assert.equal(await page.locator('select[name="band"]').inputValue(), '2');
+    assert.equal(await field(page, 'combobox', 'Band').inputValue(), '2');
   },
 );
 
@@ -380,27 +396,19 @@ browserTest(
   { path: '#/mounting?methods=recursive' },
   async ({ page }) => {
     await ready(page);
-    for (const plot of ['angle-history', 'doppler-azimuth', 'birds-eye', 'frame-weights', 'trajectory'])
-      assertPng(await saved(page, `[data-plot="${plot}"] [data-export="png"]`));
-    const history = assertCsv(
-      await saved(page, '[data-plot="angle-history"] [data-export="csv"]'),
-      'method,time_s,angle_deg,sigma_deg',
-    );
+    for (const name of ['angle-history', 'doppler-azimuth', 'birds-eye', 'frame-weights', 'trajectory'])
+      assertPng(await saved(page, save(plot(page, name), 'PNG')));
+    const csv = (name) => saved(page, save(plot(page, name), 'CSV'));
+    const history = assertCsv(await csv('angle-history'), 'method,time_s,angle_deg,sigma_deg');
     assert.ok(history.length > 500, `${history.length} entries a second apart`);
-    assertCsv(
-      await saved(page, '[data-plot="doppler-azimuth"] [data-export="csv"]'),
-      'azimuth_deg,range_rate_mps,range_m,rcs_dbsm,residual_mps,weight',
-    );
-    assertCsv(
-      await saved(page, '[data-plot="birds-eye"] [data-export="csv"]'),
-      'x_m,y_m,range_m,azimuth_deg,rcs_dbsm,weight',
-    );
+    assertCsv(await csv('doppler-azimuth'), 'azimuth_deg,range_rate_mps,range_m,rcs_dbsm,residual_mps,weight');
+    assertCsv(await csv('birds-eye'), 'x_m,y_m,range_m,azimuth_deg,rcs_dbsm,weight');
     const frames = assertCsv(
-      await saved(page, '[data-plot="frame-weights"] [data-export="csv"]'),
+      await csv('frame-weights'),
       'time_s,verdict,detections,inliers,weight_per_rad2,vx_mps,vy_mps,angle_deg,angle_sigma_deg',
     );
     assert.equal(frames.length, 12_003);
-    assertCsv(await saved(page, '[data-plot="trajectory"] [data-export="csv"]'), 'path,time_s,x_m,y_m,yaw_deg');
+    assertCsv(await csv('trajectory'), 'path,time_s,x_m,y_m,yaw_deg');
   },
 );
 
@@ -409,12 +417,12 @@ browserTest(
   { path: '#/mounting?methods=recursive' },
   async ({ page }) => {
     await ready(page);
-    const table = await saved(page, '[data-table="results"] [data-export="csv"]');
+    const table = await saved(page, save(results(page), 'CSV'));
     assert.match(
       table.bytes.toString(),
       /^method,angle_deg,sigma_deg,error_deg,converged,misaligned,scale,scale_sigma,bias_degps,/,
     );
-    const report = assertJson(await saved(page, '[data-table="results"] [data-export="json"]'));
+    const report = assertJson(await saved(page, save(results(page), 'JSON')));
     assert.equal(report.methods[0].angleDeg, await value(page, 'recursive', 'angleDeg'));
     assert.equal(report.statedDeg, -1.96);
     assert.equal(report.options.minSpeedMps, 3);
@@ -427,7 +435,8 @@ browserTest(
   { path: '#/mounting?methods=recursive' },
   async ({ page, browser }) => {
     await ready(page);
-    const report = await saved(page, '[data-export="report"]');
+    const write = save(results(page), 'Report');
+    const report = await saved(page, write);
     const html = report.bytes.toString();
     const angle = await value(page, 'recursive', 'angleDeg');
     assert.match(html, /<h1>Mounting angle of radar 1<\/h1>/);
@@ -459,10 +468,12 @@ browserTest(
     );
     assert.match(await shown.title(), /^Mounting angle/);
     await apart.close();
-    await page.click('[data-export="report"]');
-    await page.click('[data-export="report"]:has-text("Cancel")');
-    await page.waitForSelector('[data-export="report"]:text-is("Report")');
-    assert.equal(await page.locator('[role="alert"]').count(), 0);
+    await write.click();
+    await results(page)
+      .getByRole('button', { name: /^Cancel report/ })
+      .click();
+    await write.waitFor();
+    assert.equal(await alert(page).count(), 0);
   },
 );
 
@@ -472,10 +483,10 @@ browserTest(
   async ({ page }) => {
     await ready(page);
     assert.equal(await page.locator('[data-outlook]').count(), 0);
-    await typeNumber(page.locator('input[name="converged"]'), '0.08');
+    await typeNumber(field(page, 'spinbutton', 'Settled below σ'), '0.08');
     await page.waitForSelector('[aria-busy="false"] [data-outlook]');
     assert.match(await page.locator('[data-outlook] p').first().innerText(), /^Next\./);
-    await page.click('[data-outlook] summary');
+    await page.getByText('What a minute more would bring', { exact: true }).click();
     assert.equal(await page.locator('[data-manoeuvre]').count(), 5);
   },
 );

@@ -5,6 +5,9 @@ import { browserTest } from '../lib/harness.mjs';
 import { patient } from '../lib/trial.mjs';
 import { typeNumber, typeText } from '../lib/type.mjs';
 
+const field = (page, role, name) => page.getByRole(role, { name, exact: true });
+const method = (page, title) => field(page, 'checkbox', title);
+
 browserTest(
   'networks in the angle lab: one that fits loads and estimates, others say which array they are for',
   { path: '#/angle?array=lrr48&targets=-20:0,5:-3,31:-6&snr=25&snapshots=1&seed=2&methods=iaa,learned-pursuit' },
@@ -13,16 +16,16 @@ browserTest(
     const errors = await values(page, '[data-row="learned-pursuit"] [data-field="error"]');
     assert.equal(errors.length, 3);
     for (const error of errors) assert.ok(Math.abs(error) < 0.3, `${error} deg`);
-    assert.ok(await page.locator('#method-dnn').isDisabled());
+    assert.ok(await method(page, 'DNN (network)').isDisabled());
     assert.match(await page.locator('#method-dnn-note').innerText(), /8 elements|uniform/);
     assert.match(await page.locator('#method-cnn3d-note').innerText(), /region/);
-    await page.locator('input[name="refine"]').check();
+    await field(page, 'checkbox', 'Refine by Gauss-Newton').check();
     await page.waitForSelector('[data-row="learned-pursuit"] [data-field="error"][data-value]', patient);
-    await page.locator('select[name="array"]').selectOption('ula');
+    await field(page, 'combobox', 'Virtual array').selectOption('ula');
     await page.waitForSelector('#method-learned-pursuit-note:not([hidden])');
     assert.match(await page.locator('#method-learned-pursuit-note').innerText(), /lrr48/);
-    await typeNumber(page.locator('input[name="elements"]'), '8');
-    await page.locator('#method-dnn').check();
+    await typeNumber(field(page, 'spinbutton', 'Elements'), '8');
+    await method(page, 'DNN (network)').check();
     await page.waitForSelector('[data-row="dnn"]', patient);
     await parametersWith(page, (params) => params.get('methods').split(',').includes('dnn'));
   },
@@ -47,9 +50,9 @@ browserTest(
     };
     await check();
     await page.getByText('bars ±σ it states').first().waitFor();
-    await page.locator('select[name="array"]').selectOption('at');
+    await field(page, 'combobox', 'Virtual array').selectOption('at');
     await typeText(
-      page.locator('input[name="positions"]'),
+      field(page, 'textbox', 'Positions, half wavelengths'),
       Array.from({ length: 20 }, (_, k) => (1.7 * k + 0.5 * ((k * k) % 3)).toFixed(1)).join(', '),
     );
     await parametersWith(page, (params) => params.get('array')?.split(',').length === 20);
@@ -67,7 +70,7 @@ browserTest(
     const [azimuth] = await values(page, '[data-row="dnn"] [data-field="azimuth"]');
     // The recording's near target lies at -10.8 deg, just outside the network's classes.
     assert.ok(Math.abs(azimuth + 10) <= 2, `${azimuth} deg`);
-    assert.ok(await page.locator('#cell-learned-pursuit').isDisabled());
+    assert.ok(await method(page, 'Learned pursuit (network)').isDisabled());
     assert.match(await page.locator('#cell-learned-pursuit-note').innerText(), /lrr48/);
   },
 );
@@ -85,7 +88,9 @@ browserTest(
   { path: '#/capture?frame=3' },
   async ({ page }) => {
     await page.waitForSelector('[data-table="detections"] [data-field="rangeM"][data-value]');
-    await page.locator('[data-action="find-regions"]').click();
+    const regions = field(page, 'region', 'Regions, counted and told by networks');
+    const find = regions.getByRole('button', { name: 'Find regions' });
+    await find.click();
     // Both targets of the recording, at 2.95 and 4.94 m, with Bartlett's azimuths.
     const targets = [
       [58, -11.1],
@@ -98,22 +103,22 @@ browserTest(
       assert.ok(Math.abs(azimuths[0] - classicalDeg) <= 1, `bin ${bin}: ${azimuths}, ${classicalDeg} by Bartlett`);
     }
     assertCsv(
-      await saved(page, '[data-table="regions"] [data-export="csv"]'),
+      await saved(page, regions.getByRole('button', { name: 'CSV' })),
       'range_bin,range_m,rate_mps,snr_db,coarse_azimuth_deg,turned,targets,p0,p1,p2,azimuth_1_deg,power_1_db,azimuth_2_deg,power_2_db',
     );
     await parametersWith(page, (params) => params.get('regions') === '1');
     // As far as the paper's regions reach, weaker peaks are part of those of stronger ones.
     const number = '[data-table="regions"][aria-busy="false"] [data-count]';
     const before = await page.locator(number).getAttribute('data-count');
-    await typeNumber(page.locator('input[name="regionReach"]'), '32');
+    await typeNumber(field(page, 'spinbutton', 'Reach'), '32');
     await page.waitForFunction(
       ([selector, many]) => Number(document.querySelector(selector)?.dataset.count) < Number(many),
       [number, before],
       patient,
     );
     await parametersWith(page, (params) => params.get('regionReach') === '32');
-    await page.locator('[data-action="stop-regions"]').click();
-    await page.waitForSelector('[data-action="find-regions"]');
+    await regions.getByRole('button', { name: 'Stop' }).click();
+    await find.waitFor();
     assert.equal(await page.locator('[data-region]').count(), 0);
     await parametersWith(page, (params) => !params.has('regions'));
   },

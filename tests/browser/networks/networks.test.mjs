@@ -7,19 +7,32 @@ import { browserTest } from '../lib/harness.mjs';
 import { card, cell, file, models, patient, tried } from '../lib/trial.mjs';
 
 const path = '#/networks?model=learned-pursuit';
+const field = (scope, role, name) => scope.getByRole(role, { name, exact: true });
+const network = (page) => field(page, 'combobox', 'Network');
+const attempt = (page) => page.getByRole('region', { name: /^Try it: / });
+const run = (page) => field(attempt(page), 'button', 'Run on this scene').click();
+const plot = (page, name) => page.locator(`[data-plot="${name}"]`);
+const save = (scope, kind) => field(scope, 'button', kind);
+/** What chooses a network in the list of all. */
+const chooser = (page, name) => page.locator(`[data-network="${name}"]`).getByRole('button');
 const experiment = (name) => join(root, 'research', 'results', `${name}.json`);
 
 browserTest(
   'networks: no page fetches a network or their module before one is used',
   { path: '#/angle' },
   async ({ page }) => {
-    const fetched = await page.evaluate(() => performance.getEntriesByType('resource').map(({ name }) => name));
+    const fetched = [];
     page.on('request', (request) => fetched.push(request.url()));
+    fetched.push(...(await page.evaluate(() => performance.getEntriesByType('resource').map(({ name }) => name))));
     await page.waitForSelector('.plot canvas');
-    for (const name of ['capture', 'networks', 'birdseye']) {
-      await page.locator(`nav a[href^="#/${name}"]`).click();
-      await page.waitForSelector('.plot canvas');
-      await page.waitForTimeout(300);
+    // Of each page something that comes later than all that it fetches by itself.
+    for (const [name, last] of [
+      ['Capture', '[data-row="iaa"] [data-field="azimuth"][data-value]'],
+      ['Networks', '[data-task="two"] .share > span'],
+      ['Bird’s-eye view', '[data-row="bartlett"] [data-field="outsideDb"][data-value]'],
+    ]) {
+      await page.getByRole('navigation', { name: 'Pages' }).getByRole('link', { name }).click();
+      await page.waitForSelector(last, patient);
     }
     assert.deepEqual(
       fetched.filter((address) => /neural|\.onnx/.test(address)),
@@ -33,9 +46,11 @@ browserTest(
   { path: '#/networks' },
   async ({ page }) => {
     for (const name of models) {
-      await page.locator('select[name="model"]').selectOption(name);
+      await network(page).selectOption(name);
       await page.waitForSelector(`[data-card="${name}"]`);
-      const address = await page.locator(`[data-card="${name}"] a[download="${name}.onnx"]`).getAttribute('href');
+      const link = page.locator(`[data-card="${name}"]`).getByRole('link', { name: 'ONNX' });
+      assert.equal(await link.getAttribute('download'), `${name}.onnx`);
+      const address = await link.getAttribute('href');
       const digest = await page.evaluate(async (from) => {
         const hash = await crypto.subtle.digest('SHA-256', await (await fetch(from)).arrayBuffer());
         return [...new Uint8Array(hash)].map((byte) => byte.toString(16).padStart(2, '0')).join('');
@@ -44,8 +59,8 @@ browserTest(
       assert.equal(digest, card(name).sha256);
       assert.equal(await page.locator('[data-table="metrics"] tbody tr').count(), card(name).metrics.length);
     }
-    assertPng(await saved(page, '[data-plot="metrics"] [data-export="png"]'));
-    assertCsv(await saved(page, '[data-plot="metrics"] [data-export="csv"]'), await header(page));
+    assertPng(await saved(page, save(plot(page, 'metrics'), 'PNG')));
+    assertCsv(await saved(page, save(plot(page, 'metrics'), 'CSV')), await header(page));
     await parametersWith(page, (params) => params.get('model') === models.at(-1));
   },
 );
@@ -62,9 +77,7 @@ browserTest(
   'networks: the learned pursuit runs on a scene beside IAA and the truth, and the link shows it again',
   { path: `${path}&targets=4&snr=25&seed=3` },
   async ({ page }) => {
-    await page.locator('[data-card] ~ *').first().waitFor();
-    await page.locator('[data-attempt], [data-action="run"]').first().waitFor();
-    await page.locator('[data-action="run"]').click();
+    await run(page);
     await tried(page);
     const before = {};
     for (const method of ['learned-pursuit', 'iaa', 'nomp']) {
@@ -78,16 +91,15 @@ browserTest(
     await tried(page);
     for (const method of ['learned-pursuit', 'iaa', 'nomp'])
       assert.deepEqual(await cell(page, method, 'rmse'), before[method]);
-    await page.locator('input[name="refine"]').check();
+    await field(page, 'checkbox', 'Refine by Gauss-Newton').check();
     await page.waitForSelector('[data-attempt$="refined"]', patient);
     const [refined] = await cell(page, 'learned-pursuit', 'rmse');
     assert.ok(refined <= before['learned-pursuit'][0], `refined ${refined}, ${before['learned-pursuit']} before`);
-    await page.locator('[data-action="toggle"]').focus();
-    await page.keyboard.press('Enter');
+    await field(page.getByRole('form', { name: 'Networks settings' }), 'button', 'Stop').press('Enter');
     await parametersWith(page, (params) => !params.has('run'));
-    assertPng(await saved(page, '[data-plot="attempt"] [data-export="png"]'));
+    assertPng(await saved(page, save(plot(page, 'attempt'), 'PNG')));
     assertCsv(
-      await saved(page, '[data-table="attempt"] [data-export="csv"]'),
+      await saved(page, save(field(page, 'region', 'What each found'), 'CSV')),
       'method,found,missed,false,rmse_deg,power_error_db,median_ms',
     );
   },
@@ -100,16 +112,16 @@ browserTest(
     await page.waitForSelector('[data-attempt^="lrr48"]', patient);
     await page.getByText('bars ±σ it states').first().waitFor(patient);
     for (const array of ['cascade86', 'ula32']) {
-      await page.locator('select[name="array"]').selectOption(array);
+      await field(page, 'combobox', 'Array').selectOption(array);
       await page.waitForSelector(`[data-attempt^="${array}"]`, patient);
       const [found] = await cell(page, 'aaetr', 'found');
       assert.ok(found >= 2, `${array}: found ${found} of 3`);
     }
     await parametersWith(page, (params) => params.get('array') === 'ula32');
     // Other networks are for one array, and ask for none.
-    await page.locator('select[name="model"]').selectOption('learned-pursuit');
+    await network(page).selectOption('learned-pursuit');
     await page.waitForSelector('[data-attempt^="lrr48"]', patient);
-    assert.equal(await page.locator('select[name="array"]').count(), 0);
+    assert.equal(await field(page, 'combobox', 'Array').count(), 0);
   },
 );
 
@@ -120,14 +132,14 @@ browserTest(
     await tried(page);
     assert.deepEqual(await cell(page, 'network', 'sources'), [2]);
     for (const name of models.filter((model) => /^(dnn|cnn3d)/.test(model))) {
-      const { network, targets } = card(name);
-      await page.locator('select[name="model"]').selectOption(name);
+      const { network: method, targets } = card(name);
+      await network(page).selectOption(name);
       await page.waitForSelector(
-        `[data-attempt] [data-table="attempt"] [data-row="${network}"] [data-field="found"]`,
+        `[data-attempt] [data-table="attempt"] [data-row="${method}"] [data-field="found"]`,
         patient,
       );
-      const [found] = await cell(page, network, 'found');
-      const [missed] = await cell(page, network, 'missed');
+      const [found] = await cell(page, method, 'found');
+      const [missed] = await cell(page, method, 'missed');
       assert.equal(found + missed, targets, name);
     }
   },
@@ -155,16 +167,16 @@ browserTest(
         return new Response(body);
       };
     });
-    await page.locator('[data-action="run"]').click();
+    await run(page);
     await page.waitForFunction(
       (half) => document.querySelector('[data-loading="learned-pursuit"] progress')?.value === half,
       Math.floor(file('learned-pursuit.onnx').length / 2),
     );
-    await page.locator('[data-action="cancel-loading"]').first().click();
+    await field(attempt(page), 'button', 'Cancel').click();
     await page.waitForSelector('[data-stopped="learned-pursuit"]');
-    await page.locator('[data-action="load"]').first().click();
+    await field(attempt(page), 'button', 'Load').click();
     await tried(page);
-    assert.match(await page.locator('[data-ready="learned-pursuit"]').first().innerText(), /ready/);
+    await attempt(page).getByText('ready', { exact: true }).waitFor();
   },
 );
 
@@ -172,10 +184,12 @@ browserTest(
   'networks: times at batches of 1 and 32 beside IAA and NOMP; timing is cancelled',
   { path },
   async ({ page }) => {
-    await page.locator('[data-action="time"]').click();
-    await page.locator('[data-action="cancel-timing"]').click({ timeout: 30_000 });
+    const timing = field(page, 'region', 'Time it here');
+    const start = field(timing, 'button', 'Time it here');
+    await start.click();
+    await field(timing, 'button', 'Cancel').click({ timeout: 30_000 });
     await page.waitForSelector('[data-table="timing"][aria-busy="false"]');
-    await page.locator('[data-action="time"]').click();
+    await start.click();
     for (const row of ['network', 'iaa', 'nomp']) {
       for (const batch of [1, 32]) {
         const field = `[data-table="timing"] [data-row="${row}"] [data-field="batch${batch}"]`;
@@ -186,7 +200,7 @@ browserTest(
     }
     await page.waitForSelector('[data-table="timing"][aria-busy="false"]');
     assertCsv(
-      await saved(page, '[data-table="timing"] [data-export="csv"]'),
+      await saved(page, save(timing, 'CSV')),
       'subject,batch,median_ms,lower_quartile_ms,upper_quartile_ms,calls,samples_per_s',
     );
   },
@@ -200,8 +214,7 @@ browserTest(
     const onnx = file('learned-pursuit.onnx');
     const alert = async (files, code) => {
       await drop(page, files);
-      await page.waitForSelector(`[data-error="${code}"]`, patient);
-      assert.ok((await page.locator('[role="alert"]').innerText()).includes(files[0].name));
+      await page.getByRole('alert').filter({ hasText: code }).filter({ hasText: files[0].name }).waitFor(patient);
     };
     await alert([{ name: 'noise.onnx', bytes: Buffer.from('this is no network at all') }], 'not-onnx');
     await alert([{ name: 'cut.onnx', bytes: onnx.subarray(0, onnx.length / 2) }], 'truncated-file');
@@ -220,7 +233,7 @@ browserTest(
       { name: 'mine.json', bytes: file('learned-pursuit.json') },
     ]);
     await page.waitForSelector('[data-card="own:mine.onnx"]', patient);
-    assert.equal(await page.locator('[role="alert"]').count(), 0, 'the error is gone');
+    assert.equal(await page.getByRole('alert').count(), 0, 'the error is gone');
   },
 );
 
@@ -231,7 +244,7 @@ browserTest(
     await page.waitForSelector('[data-card]');
     await drop(page, [{ name: 'mine.onnx', bytes: file('learned-pursuit.onnx') }]);
     await page.waitForSelector('[data-card="own:mine.onnx"]', patient);
-    await page.locator('[data-action="run"]').click();
+    await run(page);
     await tried(page);
     // What it is only its card says.
     assert.ok((await cell(page, 'aaetr', 'found'))[0] >= 3);
@@ -240,12 +253,13 @@ browserTest(
 
 browserTest('networks: the page is used from the keyboard', { path: '#/networks' }, async ({ page }) => {
   await page.waitForSelector('[data-card]');
-  await page.locator(`[data-network="${models.at(-1)}"] button`).focus();
-  await page.keyboard.press('Enter');
+  await chooser(page, models.at(-1)).press('Enter');
   await page.waitForSelector(`[data-card="${models.at(-1)}"]`);
-  await page.locator('[data-plot="metrics"] .plot').focus();
-  await page.keyboard.press('ArrowRight');
-  assert.match(await page.locator('[data-plot="metrics"] .readout').innerText(), /SNR −?\d+ dB/);
+  await plot(page, 'metrics').getByRole('application').press('ArrowRight');
+  await plot(page, 'metrics')
+    .locator('.readout')
+    .filter({ hasText: /SNR −?\d+ dB/ })
+    .waitFor();
   const nameless = await page.evaluate(() =>
     [...document.querySelectorAll('button, input:not([hidden]), select, [role="application"]')]
       .filter((node) => !(node.getAttribute('aria-label') ?? node.labels?.[0]?.textContent ?? node.textContent).trim())
@@ -265,7 +279,7 @@ browserTest(
       const { setTimeout } = window;
       window.setTimeout = (work, delay = 1500, ...rest) => setTimeout(work, delay, ...rest);
     });
-    await page.locator(`[data-network="${models.at(-1)}"] button`).click();
+    await chooser(page, models.at(-1)).click();
     // As soon as it is there, and where it is out of sight, so that nothing has drawn it.
     const host = '[data-plot="metrics"] .plot:has(.u-over:not([data-old]))';
     await page.waitForSelector(host, { state: 'attached' });
@@ -288,7 +302,8 @@ for (const name of ['aoa', 'doa'].filter((one) => existsSync(experiment(one)))) 
         await page.waitForSelector(`[data-experiment="${name}"] [data-verdict="none"]`);
         return;
       }
-      await page.locator(`[data-experiment="${name}"] [data-verdict="counted"] > summary`).click();
+      const part = page.locator(`[data-experiment="${name}"]`);
+      await part.getByText('Each network against the classical methods').click();
       if (name === 'aoa') {
         // Counted here anew for the F1 at 15 dB: who is more than four standard deviations below any classical method
         // must be named.
@@ -324,10 +339,10 @@ for (const name of ['aoa', 'doa'].filter((one) => existsSync(experiment(one)))) 
             plots.some((plot) => plot.endsWith(score)),
             `${plots}`,
           );
-      for (const plot of plots) {
-        assertPng(await saved(page, `[data-plot="${plot}"] [data-export="png"]`));
+      for (const name of plots) {
+        assertPng(await saved(page, save(plot(page, name), 'PNG')));
       }
-      await page.locator(`[data-experiment="${name}"] select`).first().selectOption({ index: 1 });
+      await field(part, 'combobox', name === 'aoa' ? 'SNR' : 'Two targets').selectOption({ index: 1 });
       await parametersWith(page, (params) => params.has(name === 'aoa' ? 'at' : 'range'));
     },
   );

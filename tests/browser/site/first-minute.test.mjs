@@ -4,6 +4,12 @@ import { drop, reload } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { pages } from '../lib/pages.mjs';
 import { patient } from '../lib/trial.mjs';
+import { typeNumber } from '../lib/type.mjs';
+
+const examplesOf = (page) => page.getByRole('list', { name: 'Examples' }).getByRole('link');
+/** Waits until the example of a link is shown. */
+const shows = (page, link) => link.and(page.locator('[aria-current="true"]')).waitFor();
+const plotOf = (page) => page.getByRole('figure', { name: 'Angle spectrum' });
 
 /** Where examples show other methods than a fresh visit. */
 const READY = {
@@ -19,29 +25,27 @@ for (const { name, path, ready: fresh } of pages) {
     async ({ page }) => {
       await page.waitForSelector(ready, patient);
       assert.match(await page.locator('.introduction p').innerText(), /^[A-Z].*[.?]$/s);
-      const examples = page.locator('.introduction a');
+      const examples = examplesOf(page);
       const count = await examples.count();
       assert.ok(count >= 4);
       for (let i = 0; i < count; i++) {
         const title = await examples.nth(i).innerText();
+        const query = (await examples.nth(i).getAttribute('href')).split('?')[1];
         await examples.nth(i).click();
-        await page.waitForFunction(
-          (at) => document.querySelectorAll('.introduction a')[at]?.getAttribute('aria-current') === 'true',
-          i,
-        );
-        // What was typed is waited for before a drive is simulated.
-        if (path.includes('mounting')) await page.waitForTimeout(600);
-        assert.equal(await page.locator('.introduction [aria-current]').count(), 1, title);
+        await shows(page, examples.nth(i));
+        // The drive before stays until the example's own is simulated.
+        if (path.includes('mounting')) {
+          const name = new URLSearchParams(query).get('scenario') ?? 'delphi';
+          await page.locator('[data-fact="name"]').filter({ hasText: name }).waitFor(patient);
+        }
+        assert.equal(await examples.and(page.locator('[aria-current]')).count(), 1, title);
         assert.equal(await page.locator('[data-notice]').count(), 0, `${title}: all of its link is understood`);
         await page.waitForSelector(ready, patient);
         if (path.includes('networks')) await page.waitForSelector('[data-attempt]', patient);
-        assert.deepEqual(await page.locator('[role="alert"]:visible').allInnerTexts(), [], title);
+        assert.deepEqual(await page.getByRole('alert').allInnerTexts(), [], title);
       }
       await page.goBack();
-      await page.waitForFunction(
-        (at) => document.querySelectorAll('.introduction a')[at]?.getAttribute('aria-current') === 'true',
-        count - 2,
-      );
+      await shows(page, examples.nth(count - 2));
     },
   );
 }
@@ -51,12 +55,12 @@ browserTest(
   { path: '#/angle' },
   async ({ page }) => {
     await page.waitForSelector('[data-hint]');
-    const box = await page.locator('.plot-handle[data-target="0"]').boundingBox();
+    const box = await page.getByRole('button', { name: 'Target 1: azimuth' }).boundingBox();
     await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
     await page.mouse.down();
     await page.mouse.move(box.x - 30, box.y + 10, { steps: 4 });
     await page.mouse.up();
-    await page.waitForFunction(() => !document.querySelector('[data-hint]'));
+    await page.locator('[data-hint]').waitFor({ state: 'detached' });
     await reload(page);
     await page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');
     assert.equal(await page.locator('[data-hint]').count(), 0);
@@ -73,7 +77,7 @@ browserTest(
     const { height } = page.viewportSize();
     const inView = (box) => box.y < height && box.y + box.height > 0;
     assert.ok(inView(await last.boundingBox()), 'the last group of controls');
-    assert.ok(inView(await page.locator('[data-plot="spectrum"] .u-over').boundingBox()), 'the spectrum');
+    assert.ok(inView(await plotOf(page).locator('.u-over').boundingBox()), 'the spectrum');
   },
 );
 
@@ -82,22 +86,26 @@ browserTest(
   { path: '#/angle', viewport: 'phone' },
   async ({ page }) => {
     await page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');
-    const plot = await page.locator('[data-plot="spectrum"] .u-over').boundingBox();
+    const plot = await plotOf(page).locator('.u-over').boundingBox();
     assert.ok(plot.y < 400, `the plot begins at ${plot.y}`);
-    await page.locator('.sidebar-toggle').click();
-    await page.locator('[data-plot="spectrum"]').scrollIntoViewIfNeeded();
+    const toggle = page.getByRole('button', { name: 'array, targets and settings' });
+    await toggle.click();
+    await plotOf(page).scrollIntoViewIfNeeded();
     const sheet = await page.locator('.sidebar').boundingBox();
     assert.ok(
       sheet.y > 300 && Math.abs(sheet.y + sheet.height - page.viewportSize().height) < 2,
       'at the foot of the screen',
     );
-    const snr = page.locator('input[name="snr"]');
+    const snr = page.getByRole('spinbutton', { name: 'SNR' });
     await snr.click();
     await snr.press('ArrowUp');
-    await page.waitForFunction(() => /SNR 21\.0/.test(within('[data-plot="spectrum"]', 'figcaption').innerText));
+    await plotOf(page)
+      .locator('figcaption')
+      .filter({ hasText: /SNR 21\.0/ })
+      .waitFor();
     await snr.press('Escape');
-    assert.ok(!(await snr.isVisible()));
-    assert.ok(await page.locator('.sidebar-toggle').evaluate((node) => node === document.activeElement));
+    await snr.waitFor({ state: 'hidden' });
+    assert.ok(await toggle.evaluate((node) => node === document.activeElement));
   },
 );
 
@@ -134,9 +142,7 @@ browserTest(
       { name: 'motion.csv', bytes: Buffer.from('time_s,yaw_rate_degps,speed_mps\n900,0,10\n901,0,10\n') },
     ]);
     await page.waitForSelector('[data-notice="place"]');
-    const x = page.locator('input[name="xM"]');
-    await x.click();
-    await page.keyboard.type('3.5');
+    await typeNumber(page.getByRole('spinbutton', { name: 'Ahead of rear axle' }), '3.5');
     await page.waitForSelector('[data-verdict="none"]', patient);
     assert.match(await page.locator('[data-verdict]').innerText(), /no motion at the time/);
     const shown = await page.locator('[data-row="recursive"] [data-field="angleDeg"]').innerText();
@@ -147,7 +153,10 @@ browserTest(
 
 browserTest('first minute: the result of a run is in view', { path: '#/networks' }, async ({ page }) => {
   await page.waitForSelector('[data-card]');
-  await page.locator('[data-action="toggle"]').click();
+  await page
+    .getByRole('form', { name: 'Networks settings' })
+    .getByRole('button', { name: 'Run on this scene' })
+    .click();
   await page.waitForSelector('[data-attempt] [data-plot="attempt"]', patient);
   const box = await page.locator('[data-plot="attempt"] .u-over').boundingBox();
   const { height } = page.viewportSize();
@@ -157,16 +166,19 @@ browserTest('first minute: the result of a run is in view', { path: '#/networks'
 browserTest('first minute: the examples of the angle lab show what they say', { path: '#/angle' }, async ({ page }) => {
   await page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');
   const show = async (title) => {
-    await page.locator('.introduction a', { hasText: title }).click();
+    const link = examplesOf(page).filter({ hasText: title });
+    const params = new URLSearchParams((await link.getAttribute('href')).split('?')[1]);
+    await link.click();
+    // The table is of the example's targets and methods, and all have answered.
     await page.waitForFunction(
-      () =>
-        document.querySelector('.introduction [aria-current]') &&
-        !document.querySelector('tr[aria-busy="true"]') &&
-        document.querySelector('[data-table="results"] [data-row]'),
+      ([targets, methods]) => {
+        const all = (selector) => [...document.querySelectorAll(`[data-table="results"] ${selector}`)];
+        const rows = all('[data-row]').map(({ dataset }) => dataset.row);
+        const truths = all('[data-field="truth"]').map(({ dataset }) => dataset.value);
+        return `${truths}` === targets && `${rows.sort()}` === methods && all('[aria-busy="true"]').length === 0;
+      },
+      [params.get('targets').replaceAll(/:[^,]*/g, ''), `${params.get('methods').split(',').sort()}`],
     );
-    // Slow methods answer from a worker.
-    await page.waitForTimeout(300);
-    await page.waitForFunction(() => !document.querySelector('tr[aria-busy="true"]'));
     return Object.fromEntries(
       await page
         .locator('[data-table="results"] [data-row]')
@@ -234,13 +246,13 @@ browserTest(
           return colours.size;
         }),
       );
-    await page.waitForTimeout(500);
     // Axes alone have up to 560.
-    const drawn = await inks();
-    assert.equal(drawn.length, 5);
-    assert.ok(
-      drawn.every((colours) => colours > 600),
-      `colours: ${drawn}`,
-    );
+    const allDrawn = (colours) => colours.length === 5 && colours.every((count) => count > 600);
+    let colours = [];
+    for (let tries = 0; tries < 200 && !allDrawn(colours); tries++) {
+      await page.evaluate(() => new Promise(requestAnimationFrame));
+      colours = await inks();
+    }
+    assert.ok(allDrawn(colours), `colours: ${colours}`);
   },
 );

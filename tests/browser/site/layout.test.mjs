@@ -39,7 +39,10 @@ browserTest(
   { path: mounting.path },
   async ({ page }) => {
     await page.waitForSelector(mounting.ready, patient);
-    const { bytes } = await saved(page, '[data-plot="frame-weights"] [data-export="svg"]');
+    const { bytes } = await saved(
+      page,
+      page.locator('[data-plot="frame-weights"]').getByRole('button', { name: 'SVG' }),
+    );
     const [right, bars] = await page.evaluate((source) => {
       const host = document.createElement('div');
       host.innerHTML = source.replace(/^<\?xml[^>]*>/, '');
@@ -63,7 +66,8 @@ for (const { name, path, ready } of pages) {
     async ({ page }) => {
       await page.waitForSelector(ready, patient);
       const small = await page
-        .locator('input[type="checkbox"]:visible, input[type="radio"]:visible')
+        .getByRole('checkbox')
+        .or(page.getByRole('radio'))
         .evaluateAll((boxes) => boxes.filter((box) => box.getBoundingClientRect().width < 16).map(({ id }) => id));
       assert.deepEqual(small, []);
       const silent = await page.locator('.plot').evaluateAll((hosts) =>
@@ -112,8 +116,9 @@ browserTest(
   { path: '#/angle', viewport: 'phone' },
   async ({ page }) => {
     await page.waitForSelector(pages[0].ready);
-    await page.locator('.sidebar-toggle').click();
-    const fields = await page.locator('input[role="spinbutton"]:visible').evaluateAll((all) =>
+    await page.getByRole('button', { name: 'Show array, targets and settings' }).click();
+    await page.getByRole('spinbutton').first().waitFor();
+    const fields = await page.getByRole('spinbutton').evaluateAll((all) =>
       all.map((field) => ({
         name: field.name,
         size: Number.parseFloat(getComputedStyle(field).fontSize),

@@ -34,6 +34,7 @@ function noteReady(selector) {
   watch.observe(document, { subtree: true, childList: true, attributes: true });
 }
 
+const goTo = (page, name) => page.getByRole('navigation', { name: 'Pages' }).getByRole('link', { name }).click();
 const pageOf = (name) => PAGES.find(({ page }) => page === name);
 
 for (const { page: name, query = '', ready, asked, most } of PAGES) {
@@ -107,12 +108,12 @@ browserTest(
     assert.deepEqual(asked, ['boresight_bg']);
     // The line fails for what workers are made of.
     await context.route('**/*.wasm', (route) => route.abort());
-    await page.locator('nav a[href^="#/birdseye"]').click();
+    await goTo(page, 'Bird’s-eye view');
     await page.waitForSelector(pageOf('birdseye').ready, patient);
     assert.ok(page.workers().length > 0, 'workers run');
     assert.deepEqual(asked, ['boresight_bg']);
     await context.unroute('**/*.wasm');
-    await page.locator('nav a[href^="#/mounting"]').click();
+    await goTo(page, 'Mounting angle');
     await page.waitForSelector(pageOf('mounting').ready, patient);
     assert.deepEqual(asked, ['boresight_bg', 'boresight_drives_bg']);
     await context.close();
@@ -156,9 +157,12 @@ browserTest(
 browserTest('loading: no step through pages asks for the icon again', { path: '#/angle' }, async ({ page }) => {
   const asked = [];
   page.on('request', (request) => asked.push(request.url()));
-  for (const path of ['#/networks', '#/angle']) {
-    await page.locator(`nav a[href^="${path}"]`).click();
-    await page.waitForSelector(pageOf(path.slice(2)).ready, patient);
+  for (const [name, title] of [
+    ['networks', 'Networks'],
+    ['angle', 'Angle lab'],
+  ]) {
+    await goTo(page, title);
+    await page.waitForSelector(pageOf(name).ready, patient);
     await page.goBack();
     await page.goForward();
   }
@@ -191,14 +195,12 @@ browserTest(
     const page = await context.newPage();
     await page.goto(`${url}#/angle`);
     await page.waitForSelector(PAGES[0].ready, patient);
-    const scripts = () =>
-      page.evaluate(
-        () => performance.getEntriesByType('resource').filter(({ name }) => /\/page-[\w-]+\.js$/.test(name)).length,
-      );
-    assert.equal(await scripts(), 1);
-    for (let tries = 0; (await scripts()) < 5 && tries < 100; tries++) await page.waitForTimeout(200);
+    const has = (scripts) =>
+      performance.getEntriesByType('resource').filter(({ name }) => /\/page-[\w-]+\.js$/.test(name)).length >= scripts;
+    assert.deepEqual([await page.evaluate(has, 1), await page.evaluate(has, 2)], [true, false]);
+    await page.waitForFunction(has, 5, patient);
     await context.route('**/*', (route) => route.abort());
-    await page.locator('nav a[href^="#/networks"]').click();
+    await goTo(page, 'Networks');
     await page.waitForSelector('[data-card]', patient);
     await context.close();
   },

@@ -14,6 +14,7 @@ import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after } from 'node:test';
+import { setTimeout } from 'node:timers/promises';
 import { serveFolder } from '../../../scripts/lib/build/compressed.mjs';
 import { freePort } from '../../../scripts/lib/free-port.mjs';
 import { root } from '../../../scripts/lib/paths.mjs';
@@ -96,14 +97,31 @@ async function whenKept(page) {
   await page.waitForFunction(() => navigator.serviceWorker.controller?.state === 'activated', null, patient);
 }
 
-/** Waits until the caches hold what a pattern names. */
-async function whenHeld(page, pattern) {
+/** Waits until one of a list matches. */
+async function whenAmong(list, pattern, what) {
   for (let tries = 0; tries < 200; tries++) {
-    if ((await contentsOfCaches(page)).some((path) => pattern.test(path))) return;
-    await page.waitForTimeout(100);
+    if ((await list()).some((path) => pattern.test(path))) return;
+    await setTimeout(100);
   }
-  assert.fail(`nothing like ${pattern} is kept: ${(await contentsOfCaches(page)).join(' ')}`);
+  assert.fail(`nothing like ${pattern} is ${what}: ${(await list()).join(' ')}`);
 }
+
+const whenHeld = (page, pattern) => whenAmong(() => contentsOfCaches(page), pattern, 'kept');
+const whenAsked = (pattern) => whenAmong(() => own.asked, pattern, 'asked for');
+
+/** Waits until the scripts of all pages are there: they begin to come when the site begins to be kept. */
+const whenComplete = (page) =>
+  page.waitForFunction(
+    (count) => {
+      const names = performance.getEntriesByType('resource').map(({ name }) => name);
+      return new Set(names.filter((name) => /\/page-[\w-]+\.js$/.test(name))).size === count;
+    },
+    pages.length,
+    patient,
+  );
+
+const offlineUse = (page) => page.getByText('Offline use', { exact: true });
+const keepSite = (page) => page.getByRole('checkbox', { name: /^Keep the site for offline use/ });
 
 /** What fails while nobody answers is no problem of the page. */
 function forgive(problems) {
@@ -165,7 +183,8 @@ browserTest(
     own.asked.length = 0;
     await reload(page);
     await page.waitForSelector(pages[0].ready, patient);
-    await page.waitForTimeout(4000);
+    await whenAsked(/^\/service-worker\.js$/);
+    await whenComplete(page);
     assert.deepEqual([...new Set(own.asked)].sort(), ['/', '/service-worker.js']);
   },
 );
@@ -183,13 +202,16 @@ browserTest(
     const notice = page.locator('[data-notice="release"]');
     await notice.waitFor(patient);
     assert.equal(await mainScript(page), before, 'the page goes on until it is asked');
-    await page.locator('[data-action="start-release"]').click();
+    own.asked.length = 0;
+    await notice.getByRole('button', { name: 'Reload' }).click();
     await page.waitForFunction(() => document.querySelector('script[src*="ofNextRelease"]'), null, patient);
     await page.waitForSelector(pages[0].ready, patient);
     await whenKept(page);
-    await page.waitForTimeout(4000);
-    assert.equal(await notice.count(), 0);
+    // The page looks for a newer release, and finds none to tell.
+    await whenAsked(/^\/service-worker\.js$/);
+    await whenComplete(page);
     const held = await contentsOfCaches(page);
+    assert.equal(await notice.count(), 0);
     assert.ok(held.some((path) => path.includes('ofNextRelease')));
     assert.ok(!held.includes(new URL(before).pathname), 'the old script is no longer kept');
     own.goDown();
@@ -208,8 +230,7 @@ browserTest(
   async ({ page }) => {
     await page.waitForSelector(pages[0].ready, patient);
     await whenKept(page);
-    const about = page.locator('.site-foot details');
-    await about.locator('summary').click();
+    await offlineUse(page).click();
     await page.waitForSelector('[data-kept]');
     const bytes = Number(await page.locator('[data-kept]').getAttribute('data-kept'));
     assert.ok(bytes > 3e6, `${bytes} bytes`);
@@ -217,16 +238,16 @@ browserTest(
       await page.locator('[data-kept]').innerText(),
       /pages, signal processing and examples: \d+ files, [\d.]+ MiB/,
     );
-    await page.locator('[name="keep"]').click();
+    await keepSite(page).click();
     await page.waitForSelector('[data-kept="0"]');
     assert.deepEqual(await contentsOfCaches(page), []);
     await reload(page);
     await page.waitForSelector(pages[0].ready, patient);
-    await page.waitForTimeout(5000);
+    await whenComplete(page);
     assert.deepEqual(await contentsOfCaches(page), []);
     assert.equal(await page.evaluate(async () => (await navigator.serviceWorker.getRegistrations()).length), 0);
-    await about.locator('summary').click();
-    await page.locator('[name="keep"]').click();
+    await offlineUse(page).click();
+    await keepSite(page).click();
     await reload(page);
     await whenHeld(page, /index\.html$/);
   },
@@ -249,8 +270,8 @@ browserTest(
     });
     await page.goto(`${url}#/angle`);
     await page.waitForSelector(pages[0].ready, patient);
-    await page.waitForTimeout(4000);
-    await page.locator('.site-foot summary').click();
+    await whenComplete(page);
+    await offlineUse(page).click();
     await page.waitForSelector('[data-kept="0"]');
     await page.close();
   },

@@ -3,6 +3,9 @@ import { parameters, parametersWith, reload } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 
 const theme = (page) => page.evaluate(() => document.documentElement.dataset.theme);
+const themeIs = (page, wanted) =>
+  page.waitForFunction((name) => document.documentElement.dataset.theme === name, wanted);
+const goTo = (page, name) => page.getByRole('navigation', { name: 'Pages' }).getByRole('link', { name }).click();
 
 browserTest(
   'shell: the pages are reached by keyboard, and keep their state',
@@ -16,8 +19,8 @@ browserTest(
     await page.keyboard.press('Enter');
     await page.waitForSelector('[data-table="detections"]');
     assert.match(page.url(), /#\/capture/);
-    assert.match(await page.title(), /^Capture/);
-    await page.locator('nav a', { hasText: 'Angle lab' }).click();
+    await page.waitForFunction(() => document.title.startsWith('Capture'));
+    await goTo(page, 'Angle lab');
     await page.waitForSelector('[data-plot="spectrum"]');
     await parametersWith(page, (params) => params.get('array') === 'ula12');
     assert.equal(parameters(page).get('snr'), '9');
@@ -32,8 +35,8 @@ browserTest(
   async ({ page }) => {
     await page.waitForSelector('[data-plot="spectrum"]');
     // Less than the 150 ms after which the change is in the address.
-    await page.locator('select[name="array"]').selectOption('awr1642');
-    await page.evaluate(() => document.querySelectorAll('.introduction a')[1].click());
+    await page.getByRole('combobox', { name: 'Virtual array' }).selectOption('awr1642');
+    await page.getByRole('link', { name: 'Coherent multipath' }).evaluate((link) => link.click());
     await parametersWith(page, (params) => params.get('fluctuation') === 'coherent');
     await page.goBack();
     await parametersWith(page, (params) => params.get('array') === 'awr1642');
@@ -46,8 +49,8 @@ browserTest(
   async ({ page }) => {
     await page.waitForSelector('[data-plot="spectrum"]');
     assert.equal(await theme(page), 'dark');
-    await page.locator('select[name="theme"]').selectOption('light');
-    assert.equal(await theme(page), 'light');
+    await page.getByRole('combobox', { name: 'Colours' }).selectOption('light');
+    await themeIs(page, 'light');
     await reload(page);
     await page.waitForSelector('[data-plot="spectrum"]');
     assert.equal(await theme(page), 'light');
@@ -70,14 +73,14 @@ browserTest(
     assert.deepEqual(await nameless(), []);
     const hidden = await page.locator('.controls .help').count();
     await page.getByLabel('Explain the controls').check();
-    assert.ok((await page.locator('.controls .help').count()) > hidden + 10);
-    await page.locator('nav a', { hasText: 'Angle lab' }).click();
+    await page.waitForFunction((least) => document.querySelectorAll('.controls .help').length > least, hidden + 10);
+    await goTo(page, 'Angle lab');
     await page.waitForSelector('[data-plot="spectrum"]');
     assert.deepEqual(await nameless(), []);
-    await page.locator('nav a', { hasText: 'Mounting angle' }).click();
+    await goTo(page, 'Mounting angle');
     await page.waitForSelector('[data-plot="trajectory"]');
     assert.deepEqual(await nameless(), []);
-    await page.locator('nav a', { hasText: 'Bird’s-eye view' }).click();
+    await goTo(page, 'Bird’s-eye view');
     await page.waitForSelector('[data-plot="image-iaa"]');
     assert.deepEqual(await nameless(), []);
   },
@@ -99,7 +102,7 @@ browserTest(
     await page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');
     assert.equal(await theme(page), 'dark');
     await page.emulateMedia({ media: 'print' });
-    await page.waitForFunction(() => document.documentElement.dataset.theme === 'light');
+    await themeIs(page, 'light');
     for (const gone of ['.sidebar', 'nav', '.introduction ul', '[data-plot="spectrum"] .tools']) {
       assert.ok(!(await page.locator(gone).first().isVisible()), gone);
     }
@@ -107,7 +110,7 @@ browserTest(
       assert.ok(await page.locator(there).first().isVisible(), there);
     }
     await page.emulateMedia({ media: 'screen' });
-    await page.waitForFunction(() => document.documentElement.dataset.theme === 'dark');
+    await themeIs(page, 'dark');
   },
 );
 

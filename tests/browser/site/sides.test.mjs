@@ -12,6 +12,9 @@ const PLOTS = [
   { path: '#/birdseye?methods=bartlett', plot: 'image-bartlett', axis: 'y' },
 ];
 
+const drawn = (page) =>
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
 for (const path of new Set(PLOTS.map((one) => one.path))) {
   browserTest(`left is left: ${path}`, { path }, async ({ page }) => {
     for (const { plot, axis } of PLOTS.filter((one) => one.path === path)) {
@@ -21,6 +24,7 @@ for (const path of new Set(PLOTS.map((one) => one.path))) {
       const { width, height } = await frame.locator('.u-over').boundingBox();
       const at = async (share) => {
         await frame.locator('.u-over').hover({ position: { x: width * share, y: height * 0.6 } });
+        await drawn(page);
         const text = await frame.locator('.readout').innerText();
         return Number(new RegExp(`\\b${axis} ([+−]?[\\d.]+)`, 'i').exec(text)?.[1].replace('−', '-'));
       };
@@ -34,19 +38,19 @@ browserTest(
   'left is left: arrows move the cursor and a target to their side',
   { path: '#/angle' },
   async ({ page }) => {
-    const host = page.locator('[data-plot="spectrum"] .plot');
-    const readout = async () =>
-      Number(
-        /Azimuth ([+−]?[\d.]+)/
-          .exec(await page.locator('[data-plot="spectrum"] .readout').innerText())[1]
-          .replace('−', '-'),
-      );
+    const plot = page.getByRole('figure', { name: 'Angle spectrum' });
+    const host = plot.getByRole('application');
+    const readout = async () => {
+      await drawn(page);
+      const [, azimuth] = /Azimuth ([+−]?[\d.]+)/.exec(await plot.locator('.readout').innerText());
+      return Number(azimuth.replace('−', '-'));
+    };
     await page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');
     await host.press('ArrowLeft');
     const first = await readout();
     await host.press('Shift+ArrowLeft');
     assert.ok((await readout()) > first);
-    const target = page.locator('.plot-handle[data-target="0"]');
+    const target = plot.getByRole('button', { name: 'Target 1: azimuth' });
     const { x } = await target.boundingBox();
     await target.press('Shift+ArrowLeft');
     await page.waitForFunction(

@@ -1,8 +1,6 @@
 //! The same numbers natively and in wasm: digests of simulations, bit for bit, and angles of every
 //! method against `tests/golden/angles.csv`, to rounding. The file is what
-//! `cargo test -p boresight-wasm --test golden -- print_angles --nocapture` prints.
-
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+//! `cargo test -p boresight-wasm --test all -- print_angles --nocapture` prints.
 
 use boresight_aoa::{Data, Estimator, EstimatorOptions, Method, SourceCount};
 use boresight_core::presets::preset;
@@ -62,7 +60,7 @@ fn cases() -> impl Iterator<Item = (Method, &'static str)> {
 #[cfg_attr(target_arch = "wasm32", wasm_bindgen_test)]
 #[cfg_attr(not(target_arch = "wasm32"), test)]
 fn angles_are_those_of_the_golden_file() {
-    let golden = include_str!("../../../tests/golden/angles.csv");
+    let golden = include_str!("../../../../tests/golden/angles.csv");
     let mut lines = golden.lines().skip(1);
     for (method, array) in cases() {
         let fields: Vec<&str> = lines.next().unwrap().split(',').collect();

@@ -1,13 +1,8 @@
 //! Drives as JavaScript meets them: read, simulated, refused.
 
-#![cfg(all(target_arch = "wasm32", feature = "drives"))]
-#![allow(clippy::unwrap_used)]
-
-mod support;
-
+use crate::support::{json, numbers, text, with};
 use boresight_wasm::drive::{drive_scenarios, read_drive, simulate_drive};
 use js_sys::{Array, Uint8Array};
-use support::{json, numbers, text, with};
 use wasm_bindgen::JsValue;
 use wasm_bindgen_test::wasm_bindgen_test;
 
@@ -23,7 +18,7 @@ fn read(name: &str, bytes: &[u8]) -> JsValue {
 /// What tests/golden/radarscenes/make.py wrote, compressed.
 #[wasm_bindgen_test]
 fn a_compressed_sequence_is_read() {
-    let drive = read("s.h5", include_bytes!("../../../tests/golden/radarscenes/deflated.h5"));
+    let drive = read("s.h5", include_bytes!("../../../../tests/golden/radarscenes/deflated.h5"));
     assert_eq!(text(&drive, "format"), "radarscenes");
     assert_eq!(numbers(&drive, "scans.sensor"), [1.0, 2.0, 1.0]);
     assert_eq!(numbers(&drive, "detections.rangeM"), [10.5, 20.5, 40.5]);
@@ -60,6 +55,6 @@ fn what_is_wrong_is_said_and_the_next_call_works() {
     let parts = ["code", "what", "given"].map(|part| text(&error, part));
     assert_eq!(parts, ["unknown-name", "scenario", "moon"]);
 
-    let drive = read("s.h5", include_bytes!("../../../tests/golden/radarscenes/contiguous.h5"));
+    let drive = read("s.h5", include_bytes!("../../../../tests/golden/radarscenes/contiguous.h5"));
     assert_eq!(numbers(&drive, "scans.timeS").len(), 3);
 }

@@ -1,8 +1,6 @@
 //! Every field of every options struct, one at a time: a legal value that is not its default goes
 //! through JavaScript, and in Rust this field, and no other, has changed.
 
-#![cfg(target_arch = "wasm32")]
-
 use boresight_options::{Described, Field, Kind, Record, differing_fields, lies_in, naming};
 use boresight_wasm::carry;
 use js_sys::{Array, Object, Reflect};

@@ -1,12 +1,7 @@
 //! The bindings as JavaScript meets them, without the TypeScript around them.
 
-#![cfg(all(target_arch = "wasm32", feature = "core"))]
-#![allow(clippy::unwrap_used)]
-
-mod support;
-
+use crate::support::{get, json, text, with};
 use boresight_wasm::{array, capture, estimate, simulate};
-use support::{get, json, text, with};
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_test::wasm_bindgen_test;
 
@@ -62,8 +57,8 @@ fn arrays_of_a_kind_too_many_are_refused() {
 #[wasm_bindgen_test]
 fn the_recording_has_its_targets() {
     let bin: &[u8] =
-        include_bytes!("../../../recordings/awr1642/xwr16xx_crw_dca_module_2018_1015v2.bin");
-    let cfg = include_str!("../../../recordings/awr1642/profile.cfg");
+        include_bytes!("../../../../recordings/awr1642/xwr16xx_crw_dca_module_2018_1015v2.bin");
+    let cfg = include_str!("../../../../recordings/awr1642/profile.cfg");
     let bytes = js_sys::Uint8Array::new_from_slice(bin);
     let mut capture = capture::Capture::new(&bytes.into(), &cfg.into()).unwrap();
     let result = capture.combine_frames(&JsValue::UNDEFINED, None).unwrap();

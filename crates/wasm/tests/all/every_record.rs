@@ -1,9 +1,6 @@
 //! Every record that functions return comes back whole: each described field is there, under its name in JavaScript,
 //! of its type, with its value in its unit, and nothing else is.
 
-#![cfg(target_arch = "wasm32")]
-#![allow(clippy::unwrap_used, clippy::panic)]
-
 use boresight_aoa::bounds::{Signals, deterministic_bound, uncorrelated};
 use boresight_aoa::suits::unsuited;
 use boresight_aoa::{Data, Estimator, EstimatorOptions, Method};
@@ -182,7 +179,7 @@ fn a_batch_carries_the_confidence_of_its_sources() {
 #[wasm_bindgen_test]
 fn records_of_captures_and_images() {
     let config =
-        RadarConfig::parse(include_bytes!("../../../recordings/awr1642/profile.cfg")).unwrap();
+        RadarConfig::parse(include_bytes!("../../../../recordings/awr1642/profile.cfg")).unwrap();
     whole(&ConfigRecord::from(&config));
     let array = config.array().unwrap();
     let info = CaptureInfo {
@@ -254,8 +251,9 @@ fn records_of_captures_and_images() {
     whole(&view.columns());
     let gate = Gate::Circle { radius_m: 1.0 };
     whole(&sidelobe_measure(&view, &[[4.0, 0.0]], gate).unwrap());
-    let dat =
-        include_bytes!("../../../recordings/awr1642/xwr16xx_crw_demo_visualizer_2018_1015v2.dat");
+    let dat = include_bytes!(
+        "../../../../recordings/awr1642/xwr16xx_crw_demo_visualizer_2018_1015v2.dat"
+    );
     let log = BoardLog::parse(&dat[..40_000], None);
     whole(&log);
     whole(&log.counts);

@@ -1,5 +1,4 @@
 //! Values of JavaScript, made and looked into.
-#![allow(clippy::unwrap_used, dead_code)]
 
 use js_sys::{Array, JSON, Reflect};
 use wasm_bindgen::{JsCast, JsValue};

@@ -1,8 +1,6 @@
 //! Images of the street against `tests/golden/images.csv`, natively and in wasm: the maps of one
 //! radar by the FFT and by IAA, and the bird's-eye view of two radars by IAA, at a small size. The
-//! file is what `cargo test -p boresight-wasm --test images -- print_images --nocapture` prints.
-
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+//! file is what `cargo test -p boresight-wasm --test all -- print_images --nocapture` prints.
 
 use boresight_aoa::{Estimator, EstimatorOptions, Method};
 use boresight_core::presets::preset;
@@ -69,7 +67,7 @@ fn strongest(image: &Array2<f32>) -> f64 {
 #[cfg_attr(target_arch = "wasm32", wasm_bindgen_test)]
 #[cfg_attr(not(target_arch = "wasm32"), test)]
 fn images_are_those_of_the_golden_file() {
-    let golden = include_str!("../../../tests/golden/images.csv");
+    let golden = include_str!("../../../../tests/golden/images.csv");
     let mut lines = golden.lines().skip(1);
     for (name, image) in images() {
         let peak = strongest(&image);
