@@ -1,11 +1,12 @@
 /** Calibration of the array on the page of captures: made, checked, saved, opened, refused, cancelled. */
 import assert from 'node:assert/strict';
+import { button, cancelOf, choose, combobox, plotOf, region, spinbutton } from '../lib/controls.mjs';
 import { clickWhenThere, drop, parameters, parametersWith, recording, reload, saved, values } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { patient } from '../lib/trial.mjs';
 import { leave, typeNumber } from '../lib/type.mjs';
 import { findings } from '../site/axe.mjs';
-import { button, cancelOf, choose, combobox, opened, plotOf, ready, region, spinbutton } from './page.mjs';
+import { opened, ready } from './page.mjs';
 
 const path = '#/capture';
 const panel = (page) => region(page, 'Array calibration');

@@ -1,4 +1,5 @@
 import assert from 'node:assert/strict';
+import { button, cancelOf, checkbox, choose, combobox, figure, plotOf, progress, region } from '../lib/controls.mjs';
 import {
   assertCsv,
   assertPng,
@@ -12,25 +13,7 @@ import {
   values,
 } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
-import {
-  button,
-  cancelOf,
-  captionOf,
-  cells,
-  checkbox,
-  choose,
-  chosenRow,
-  combobox,
-  figure,
-  frameSays,
-  frameSlider,
-  frames,
-  opened,
-  plotOf,
-  progress,
-  ready,
-  region,
-} from './page.mjs';
+import { captionOf, cells, chosenRow, frameSays, frameSlider, frames, opened, ready } from './page.mjs';
 
 const path = '#/capture';
 const bin = recording('xwr16xx_crw_dca_module_2018_1015v2.bin');

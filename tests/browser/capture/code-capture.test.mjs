@@ -2,10 +2,11 @@
 import assert from 'node:assert/strict';
 import { assertNear, codeOf, linesBy, settled, tableOf } from '../lib/code-dialog.mjs';
 import { runCommands, runScript } from '../lib/code-run.mjs';
+import { button } from '../lib/controls.mjs';
 import { drop, recording } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { patient } from '../lib/trial.mjs';
-import { button, opened, ready } from './page.mjs';
+import { opened, ready } from './page.mjs';
 import { json, setup, studio } from './studio.mjs';
 
 /** Of a capture: detections, and the cell's angles. */

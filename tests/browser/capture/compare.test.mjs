@@ -1,10 +1,11 @@
 /** Two settings of a page beside each other. */
 import assert from 'node:assert/strict';
+import { button, combobox, figure, spinbutton } from '../lib/controls.mjs';
 import { assertCsv, parameters, parametersWith, saved, values } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { leave, typeNumber } from '../lib/type.mjs';
 import { later } from '../state/undo.mjs';
-import { button, combobox, figure, ready, spinbutton } from './page.mjs';
+import { ready } from './page.mjs';
 
 const path = '#/angle?array=ula10&targets=-5:0,12:0&snr=20&snapshots=100&seed=1&methods=bartlett,music,root-music';
 const shown = (page) => page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');

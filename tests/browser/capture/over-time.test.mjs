@@ -1,5 +1,6 @@
 /** The range-time waterfall and the micro-Doppler of a capture. */
 import assert from 'node:assert/strict';
+import { button, cancelOf, figure, plotOf, progress, spinbutton } from '../lib/controls.mjs';
 import {
   assertCsv,
   assertPng,
@@ -13,19 +14,7 @@ import {
 } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { leave, typeNumber } from '../lib/type.mjs';
-import {
-  button,
-  cancelOf,
-  captionOf,
-  figure,
-  frameSays,
-  frameSlider,
-  frames,
-  opened,
-  plotOf,
-  progress,
-  spinbutton,
-} from './page.mjs';
+import { captionOf, frameSays, frameSlider, frames, opened } from './page.mjs';
 
 const path = '#/capture';
 const bin = recording('xwr16xx_crw_dca_module_2018_1015v2.bin');

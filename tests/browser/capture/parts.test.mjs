@@ -1,8 +1,9 @@
 /** Recordings that are in several .bin files. */
 import assert from 'node:assert/strict';
+import { button, choose, figure, progress } from '../lib/controls.mjs';
 import { assertCsv, drop, recording, saved } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
-import { button, choose, figure, frames, opened, progress, ready } from './page.mjs';
+import { frames, opened, ready } from './page.mjs';
 
 const path = '#/capture';
 const bin = recording('xwr16xx_crw_dca_module_2018_1015v2.bin');

@@ -1,8 +1,9 @@
 /** The range-azimuth map of a capture's frames. */
 import assert from 'node:assert/strict';
+import { button, cancelOf, combobox, figure, plotOf, progress } from '../lib/controls.mjs';
 import { assertCsv, assertPng, clickWhenThere, drop, parametersWith, recording, saved } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
-import { button, cancelOf, captionOf, combobox, figure, frameSlider, opened, plotOf, progress } from './page.mjs';
+import { captionOf, frameSlider, opened } from './page.mjs';
 
 const MAP = 'Range-azimuth map';
 const method = (page) => combobox(page, 'Angle by');

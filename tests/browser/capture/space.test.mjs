@@ -5,11 +5,12 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { brotliCompressSync } from 'node:zlib';
 import { root } from '../../../scripts/lib/paths.mjs';
+import { button, region, spinbutton, twoFrames } from '../lib/controls.mjs';
 import { assertCsv, assertPng, parameters, parametersWith, saved, values } from '../lib/demo.mjs';
 import { browserTest, skipWithoutBrowser } from '../lib/harness.mjs';
 import { typeNumber } from '../lib/type.mjs';
 import { findings } from '../site/axe.mjs';
-import { button, chosenRow, frameSlider, frames, region, spinbutton, twoFrames } from './page.mjs';
+import { chosenRow, frameSlider, frames } from './page.mjs';
 
 const SIMULATED = '#/capture?source=simulated&frame=0&methods=bartlett&points=space';
 const space = (page) => region(page, 'Point cloud in 3-D');

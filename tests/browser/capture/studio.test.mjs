@@ -1,8 +1,9 @@
 /** Captures with the JSON of mmWave Studio in place of a .cfg. */
 import assert from 'node:assert/strict';
+import { combobox } from '../lib/controls.mjs';
 import { drop, recording } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
-import { combobox, opened, ready } from './page.mjs';
+import { opened, ready } from './page.mjs';
 import { json, setup, studio } from './studio.mjs';
 
 const bin = recording('xwr16xx_crw_dca_module_2018_1015v2.bin');

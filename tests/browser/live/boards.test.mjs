@@ -3,7 +3,8 @@ import assert from 'node:assert/strict';
 import { before } from 'node:test';
 import { init, parseConfig } from 'boresight';
 import { cascadeFiles, configOf, framesOf, ROW } from '../../lib/boards.mjs';
-import { combobox, opened, ready } from '../capture/page.mjs';
+import { opened, ready } from '../capture/page.mjs';
+import { combobox } from '../lib/controls.mjs';
 import { drop, parametersWith, recording } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { startBridge } from '../../lib/bridge.mjs';
 import { fakeSerial, feedRecording } from '../../lib/fake-serial.mjs';
-import { button, combobox, region, spinbutton, twoFrames } from '../capture/page.mjs';
+import { button, combobox, region, spinbutton, twoFrames } from '../lib/controls.mjs';
 import { drop, parametersWith, recording, saved } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { typeText } from '../lib/type.mjs';

@@ -1,6 +1,6 @@
 /** Every field of numbers of every page takes what is typed, and nothing that was not. */
 import assert from 'node:assert/strict';
-import { button, spinbutton } from '../capture/page.mjs';
+import { button, spinbutton } from '../lib/controls.mjs';
 import { parametersWith, values } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { pages } from '../lib/pages.mjs';

@@ -2,7 +2,8 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { button, combobox, figure, frameSlider, opened, ready, spinbutton } from '../capture/page.mjs';
+import { frameSlider, opened, ready } from '../capture/page.mjs';
+import { button, combobox, figure, spinbutton } from '../lib/controls.mjs';
 import { drop, parameters, parametersWith, recording, recordings, reload } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 

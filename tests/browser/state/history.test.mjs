@@ -1,6 +1,6 @@
 /** Undo, redo and links. */
 import assert from 'node:assert/strict';
-import { button, combobox, spinbutton } from '../capture/page.mjs';
+import { button, combobox, spinbutton } from '../lib/controls.mjs';
 import { parameters, parametersWith } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { leave, typeNumber } from '../lib/type.mjs';

@@ -1,6 +1,7 @@
 /** Results stand only beside the inputs they were computed from, in tables, plots and files. */
 import assert from 'node:assert/strict';
-import { button, cells, checkbox, combobox, figure, region, spinbutton } from '../capture/page.mjs';
+import { cells } from '../capture/page.mjs';
+import { button, checkbox, combobox, figure, region, spinbutton } from '../lib/controls.mjs';
 import { assertJson, saved, values } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { cell, patient, tried } from '../lib/trial.mjs';

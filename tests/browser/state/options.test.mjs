@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from '../../../scripts/lib/paths.mjs';
-import { checkbox, spinbutton } from '../capture/page.mjs';
+import { checkbox, spinbutton } from '../lib/controls.mjs';
 import { browserTest } from '../lib/harness.mjs';
 
 const { $defs } = JSON.parse(readFileSync(join(root, 'web', 'lib', 'generated', 'schema.json'), 'utf8'));

@@ -3,7 +3,7 @@ import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { twoFrames } from '../capture/page.mjs';
+import { twoFrames } from '../lib/controls.mjs';
 import { skipWithoutBrowser } from '../lib/harness.mjs';
 import { launch, openPage, serve } from '../lib/session.mjs';
 
