@@ -33,15 +33,15 @@ const wasmFeatures = [
 // functions next to each other: another 0.7 %.
 const wasmPasses = ['-Os', '--gufa', '-Os', '--reorder-functions-by-name'];
 
-/** Folders of crates and of all crates of the workspace that they depend on, without optional ones. */
+/** Manifests and sources of crates and of all crates of the workspace that they depend on, without optional ones. */
 function withDependencies(...crates) {
   const found = new Set(crates);
   for (const crate of found) {
     const [dependencies] = readFileSync(join(root, 'crates', crate, 'Cargo.toml'), 'utf8').split('[dev-dependencies]');
     for (const [, name] of dependencies.matchAll(/^boresight-([\w-]+)\.workspace/gm))
-      if (existsSync(join(root, 'crates', name))) found.add(name);
+      for (const path of [name, `options/${name}`]) if (existsSync(join(root, 'crates', path))) found.add(path);
   }
-  return [...found].map((name) => `crates/${name}`);
+  return [...found].flatMap((name) => [`crates/${name}/Cargo.toml`, `crates/${name}/src`]);
 }
 
 export const core = { name: 'boresight', crate: 'wasm', feature: 'core', profile: 'dist', wasmOpt: true };

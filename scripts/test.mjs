@@ -16,7 +16,7 @@ import {
 } from './build.mjs';
 import { browserMissing, findBrowser } from './lib/browser.mjs';
 import { environment, root, wasmTarget } from './lib/paths.mjs';
-import { main, runTee } from './lib/run.mjs';
+import { main, runKeeping, runTee } from './lib/run.mjs';
 import { cargoCounts, checkCounts, nodeCounts, passedOnRetry, summary } from './lib/summary.mjs';
 import { setup } from './setup.mjs';
 
@@ -74,12 +74,27 @@ const npm = (name, ...args) => ({
 
 const build = { name: 'build', work: buildPackage, counts: checkCounts };
 
+/** Needs nothing of what is set up or built, and so runs beside that. */
+const rustTests = { name: 'rust', command: [node, 'scripts/test-rust.mjs'], counts: cargoCounts };
+
+/** Tests whose default size is a part of the full one (tests/support/size.rs). */
+const fullRustTests = {
+  name: 'rust-full',
+  command: [
+    node,
+    'scripts/test-rust.mjs',
+    ...['aoa', 'fleet', 'mounting'].flatMap((name) => ['-p', `boresight-${name}`]),
+  ],
+  variables: { BORESIGHT_FULL: '1' },
+  counts: cargoCounts,
+};
+
 /** `npm test`: what a change of code needs. */
 const test = [
-  { name: 'rust', command: [node, 'scripts/test-rust.mjs'], counts: cargoCounts },
-  wasmTests,
+  rustTests,
   build,
   { name: 'build-demo', work: buildDemo, counts: checkCounts },
+  wasmTests,
   { name: 'node', command: () => nodeTests('tests/node'), counts: nodeCounts },
   { name: 'flows', command: () => nodeTests('tests/browser/flows', '--test-concurrency=2'), counts: nodeCounts },
 ];
@@ -124,6 +139,7 @@ const check = [
 
 /** The rest of `npm run test:all`. */
 const rest = [
+  fullRustTests,
   wasmNeuralTests,
   { name: 'build-reference', work: buildReference, counts: checkCounts },
   { name: 'packaging', command: () => nodeTests('tests/packaging', '--test-concurrency=1'), counts: nodeCounts },
@@ -159,8 +175,11 @@ function chosenSteps(args) {
   return tiers.all.filter(({ name }) => names.includes(name));
 }
 
-async function runStep({ command, work, variables, counts }) {
+/** Runs a step; its output is shown as it comes, or all at its end where others run `beside` it. */
+async function runStep({ name, command, work, variables, counts }, { beside = false } = {}) {
   const started = performance.now();
+  const title = `\n=== ${name}`;
+  if (!beside) console.log(title);
   let result;
   if (work) {
     result = await work().then(
@@ -172,13 +191,16 @@ async function runStep({ command, work, variables, counts }) {
     );
   } else {
     const [program, ...args] = typeof command === 'function' ? command() : command;
-    result = await runTee(program, args, { timeout: longestStepMs, env: { ...environment, ...variables } });
+    const options = { timeout: longestStepMs, env: { ...environment, ...variables } };
+    result = await (beside ? runKeeping : runTee)(program, args, options);
+    if (beside) console.log(`${title}\n${result.text}`);
   }
   const counted = counts(result.text, result.ok);
   // A step that fails without a failed test (it did not compile, it was ended) is a failure too;
   // so is one that ran no test at all.
   const silent = counted.failed === 0 && (!result.ok || counted.passed + counted.skipped === 0);
   return {
+    name,
     ...counted,
     failed: silent ? 1 : counted.failed,
     seconds: (performance.now() - started) / 1000,
@@ -189,15 +211,17 @@ async function runStep({ command, work, variables, counts }) {
 await main(async () => {
   const chosen = chosenSteps(process.argv.slice(2));
   const inCi = Boolean(process.env.CI);
+  const started = performance.now();
+  const early = chosen.length > 1 && chosen.includes(rustTests) ? runStep(rustTests, { beside: true }) : undefined;
+  if (early) console.log('rust: runs beside the other steps; its output follows at its end');
   await setup({ wasmPack: chosen.includes(wasmNeuralTests) });
   const results = [];
-  for (const step of chosen) {
-    console.log(`\n=== ${step.name}`);
-    results.push({ name: step.name, ...(await runStep(step)) });
-  }
+  for (const step of chosen) if (!early || step !== rustTests) results.push(await runStep(step));
+  if (early) results.unshift(await early);
   const total = (key) => results.reduce((sum, result) => sum + result[key], 0);
   if (!findBrowser()) console.log(`\nBrowser tests did not run: ${browserMissing}`);
   for (const name of results.flatMap(({ retried }) => retried)) console.log(`\nPassed only on the second try: ${name}`);
+  console.log(`\nAll steps took ${((performance.now() - started) / 1000).toFixed(0)} s.`);
   console.log(`\n${summary(results)}`);
   if (total('failed') > 0 || (inCi && total('skipped') > 0)) process.exitCode = 1;
 });

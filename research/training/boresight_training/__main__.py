@@ -96,7 +96,7 @@ def parser() -> argparse.ArgumentParser:
     evaluate.add_argument("--test", type=Path, metavar="DIR", help=scored)
 
     write = commands.add_parser("export", help="write the network of a training folder as ONNX, with its card")
-    write.add_argument("folder", type=Path)
+    write.add_argument("folder", type=Path, help="folder of a training, or a file of export --weights")
     write.add_argument("out", type=Path, metavar="F.onnx")
     write.add_argument("--precision", choices=export.STORED_AS, default="single", help="of large weights")
     write.add_argument("--count", type=int, default=4000, help="examples a condition for the card's metrics")

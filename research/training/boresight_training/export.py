@@ -46,7 +46,7 @@ SEEDS = {"example": 7, "metrics": 30_000, "confidence": 40_000, "deviations": 50
 
 
 def restore(folder: Path, **places: Path) -> tuple[dict, Task, torch.nn.Module]:
-    """Checkpoint, task and averaged network of a training folder; `places` are those of stored data."""
+    """Checkpoint, task and averaged network of a training folder or a file of weights; `places` are those of stored data."""
     saved = checkpoint.load(folder)
     if saved is None:
         raise FileNotFoundError(f"{folder} holds no {checkpoint.NAME}")
@@ -160,7 +160,7 @@ def export(
     beside: tuple[Path, ...] = (),
     test: Path | None = None,
 ) -> dict:
-    """Writes the network of a training folder to `path`, its card beside it, and returns the card.
+    """Writes the network of a training folder or a file of weights to `path`, its card beside it, and returns the card.
 
     With `golden_in` a golden batch is written to a folder there of the model's name, with `weights` a file that another
     run can start from. The card has the learning curve of the folder, and of those `beside`. `test` holds stored data
@@ -186,7 +186,9 @@ def export(
     with torch.no_grad():
         metrics = what.evaluate(network, count, torch.Generator().manual_seed(SEEDS["metrics"]))
         confidence = what.confidence(network, count, torch.Generator().manual_seed(SEEDS["confidence"]))
-    curves = [curve for one in (folder, *beside) if (curve := learning_curve(one)) is not None]
+    # A file of weights has no log.
+    runs = [one for one in (folder, *beside) if one.is_dir()]
+    curves = [curve for one in runs if (curve := learning_curve(one)) is not None]
     identity, legs = saved["identity"], [*saved["legs"], saved]
     card = {
         "name": path.stem,
