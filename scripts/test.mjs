@@ -83,7 +83,7 @@ const fullRustTests = {
   command: [
     node,
     'scripts/test-rust.mjs',
-    ...['aoa', 'fleet', 'mounting'].flatMap((name) => ['-p', `boresight-${name}`]),
+    ...['aoa', 'fleet', 'formats', 'mounting', 'neural'].flatMap((name) => ['-p', `boresight-${name}`]),
   ],
   variables: { BORESIGHT_FULL: '1' },
   counts: cargoCounts,

@@ -47,6 +47,9 @@ pub mod order;
 pub mod plan;
 pub mod range_angle;
 pub mod refinement;
+#[cfg(test)]
+#[path = "../../../tests/support/size.rs"]
+mod size;
 mod spectra;
 pub mod suits;
 

@@ -14,6 +14,8 @@ mod recovery;
 mod reference;
 mod refinement;
 mod robustness;
+#[path = "../../../../tests/support/size.rs"]
+mod size;
 mod sparse_reference;
 mod sparse_robustness;
 mod suits;

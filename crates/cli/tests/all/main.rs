@@ -15,4 +15,6 @@ mod image;
 mod inputs;
 mod networks;
 mod output;
+#[path = "../../../../tests/support/size.rs"]
+mod size;
 mod validate;

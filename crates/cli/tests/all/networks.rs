@@ -1,6 +1,7 @@
 //! Trained networks on the command line.
 
 use crate::common::{boresight, folder, stdout};
+use crate::size::sized;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -42,9 +43,9 @@ fn a_network_estimates_like_any_method() {
         serde_json::from_str::<Vec<Value>>(&text).unwrap()
     };
     let path = model("learned-pursuit");
-    for extra in [&[][..], &["--refine"]] {
+    for extra in sized(&[&[][..], &["--refine"]][..], &[&["--refine"][..]]) {
         let sources =
-            run(&[&["--model", &path, "--field-of-view", "60", "--json"][..], extra].concat());
+            run(&[&["--model", &path, "--field-of-view", "60", "--json"][..], *extra].concat());
         assert_eq!(sources.len(), 2, "{sources:?}");
         for (source, (azimuth, power)) in sources.iter().zip([(-5.0, 0.0), (20.0, -3.0)]) {
             assert!((source["azimuthDeg"].as_f64().unwrap() - azimuth).abs() < 0.1, "{source}");

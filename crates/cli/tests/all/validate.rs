@@ -1,19 +1,21 @@
 //! `boresight validate` as a user runs it.
 
 use crate::common::{boresight, folder, stdout};
+use crate::size::sized;
 use serde_json::Value;
 
 #[test]
 fn drives_from_files_are_cut_into_pieces_and_taken_up_again() {
     let folder = folder("validate");
     let drives = folder.join("drives");
+    let [duration, pieces, longest] = sized(["14", "6,12", "12"], ["9", "4,8", "8"]);
     for seed in ["1", "2"] {
         let drive = drives.join(format!("drive-{seed}"));
         let simulated = [
             "simulate",
             "drive",
             "--duration",
-            "14",
+            duration,
             "--seed",
             seed,
             "--scenario",
@@ -23,11 +25,12 @@ fn drives_from_files_are_cut_into_pieces_and_taken_up_again() {
         stdout(&[&simulated[..], &[drive.to_str().unwrap()]].concat());
     }
     let out = folder.join("run");
-    let validate = ["validate", drives.to_str().unwrap(), "--pieces", "6,12"];
+    let validate = ["validate", drives.to_str().unwrap(), "--pieces", pieces];
     let run = [&validate[..], &["--out", out.to_str().unwrap()]].concat();
     let first = stdout(&run);
     assert!(
-        first.contains("# 2 drives from files") && first.contains("## Pieces of 12 s"),
+        first.contains("# 2 drives from files")
+            && first.contains(&format!("## Pieces of {longest} s")),
         "{first}"
     );
     let records = std::fs::read_to_string(out.join("calibration-drives.jsonl")).unwrap();

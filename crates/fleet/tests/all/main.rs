@@ -10,6 +10,8 @@ mod outlying;
 mod pieces;
 mod report;
 mod simulated;
+#[path = "../../../../tests/support/size.rs"]
+mod size;
 mod support;
 mod tables;
 mod workers;

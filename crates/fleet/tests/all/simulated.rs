@@ -2,6 +2,7 @@
 //!
 //! `FLEET_VEHICLES`, `FLEET_DRIVES` and `FLEET_SECONDS` make the fleet larger than the test needs.
 
+use crate::size::sized;
 use crate::support::drive::{each, merged, record, rms, within};
 use boresight_core::drive::{Mounting, RADARSCENES_SENSORS};
 use boresight_simulate::drive::DriveProfile;
@@ -20,9 +21,9 @@ fn misalignment_deg(vehicle: u64, sensor: u8, after: bool) -> f64 {
 
 #[test]
 fn the_angles_of_a_simulated_fleet_keep_their_deviations_and_knocks_are_found() {
-    let vehicles = setting("FLEET_VEHICLES", 6);
+    let vehicles = setting("FLEET_VEHICLES", sized(6, 3));
     let drives = setting("FLEET_DRIVES", 8);
-    let duration_s = setting("FLEET_SECONDS", 30) as f64;
+    let duration_s = setting("FLEET_SECONDS", sized(30, 20)) as f64;
     let all: Vec<(u64, u64)> =
         (0..vehicles).flat_map(|vehicle| (0..drives).map(move |drive| (vehicle, drive))).collect();
     let halfway = drives.div_ceil(2);
@@ -93,7 +94,7 @@ fn the_angles_of_a_simulated_fleet_keep_their_deviations_and_knocks_are_found() 
     println!("  steps {:.3} deg rms, within one and two {:.2?}", rms(&steps), within(&steps));
     let outlying: usize = fleet.radars.iter().map(|radar| radar.outlying.len()).sum();
     println!("  radars called outlying: {outlying}; shared {:.4?}", fleet.vehicles[0].shared);
-    // 24 angles or more: shares within one and two deviations, less three deviations of such shares.
+    // Shares within one and two deviations, less three deviations of such shares.
     let [one, two] = within(&now);
     let deviation = |p: f64| (p * (1.0 - p) / now.len() as f64).sqrt();
     assert!(one > 0.683 - 3.0 * deviation(0.683), "{one}");

@@ -1,3 +1,6 @@
+#[path = "../../../../tests/support/size.rs"]
+mod size;
+
 use super::made::{channel, chunk, chunk_of, file, message, packed, record, schema, statistics};
 use super::{Channel, MAGIC, McapCounts, McapSink, McapStream, Message, Schema};
 use crate::error::FormatError;
@@ -163,7 +166,8 @@ fn a_cut_file_is_read_as_far_as_it_goes() {
         let bytes = recording(compression);
         let whole = read(&bytes).0;
         let mut before = 0;
-        for end in MAGIC.len()..bytes.len() {
+        // Records are not multiples of seven long.
+        for end in (MAGIC.len()..bytes.len()).step_by(size::sized(1, 7)) {
             let (seen, counts) = read_in(&bytes[..end], 333).unwrap();
             assert_eq!(seen.messages, whole.messages[..seen.messages.len()]);
             assert!(seen.messages.len() >= before, "{compression} {end}");

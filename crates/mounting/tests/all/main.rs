@@ -19,6 +19,8 @@ mod robustness;
 mod sessions;
 mod signs;
 mod simulated;
+#[path = "../../../../tests/support/size.rs"]
+mod size;
 mod snapshot;
 mod snapshot_versions;
 mod statistics;

@@ -2,6 +2,7 @@
 //! error that says what was wrong.
 
 use crate::common::{BATCH, Drive, network};
+use crate::size::sized;
 use boresight_core::Detection;
 use boresight_mounting::{CalibrationOptions, Calibrator, FrameInput, Method, MotionMethod};
 use proptest::prelude::*;
@@ -120,7 +121,7 @@ fn feed(calibrator: &mut Calibrator, frames: &[Frame]) -> Result<f64, TestCaseEr
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 400,
+        cases: sized(400, 80),
         rng_seed: proptest::test_runner::RngSeed::Fixed(7),
         failure_persistence: None,
         ..ProptestConfig::default()

@@ -1,5 +1,6 @@
 //! Signs found out of drives: against theory, on simulated drives of all scenarios, and on real ones.
 
+use crate::size::sized;
 use boresight_core::drive::{Detection, MotionSample, Mounting, Scan, Sensor};
 use boresight_core::{DriveLog, Random};
 use boresight_formats::ReadReport;
@@ -69,11 +70,12 @@ fn count(
 
 #[test]
 fn simulated_drives_of_all_scenarios_are_never_told_wrong() {
-    let seeds = seeds().map_or(1..3, |most| 0..most.max(3));
+    let seeds = seeds().map_or(sized(1, 2)..3, |most| 0..most.max(3));
+    let drives = (seeds.end - seeds.start).min(2) as u32;
     let counts = count(&Scenario::ALL, seeds, |log, _| log);
     assert_eq!([counts[0][1], counts[1][1]], [0, 0], "{counts:?}");
-    // Motorways and queues turn too little; car parks are driven in reverse.
-    assert!(counts[0][0] >= 5 && counts[1][0] >= 10, "{counts:?}");
+    // Of six scenarios, motorways and queues turn too little; car parks are driven in reverse.
+    assert!(2 * counts[0][0] >= 5 * drives && counts[1][0] >= 5 * drives, "{counts:?}");
 }
 
 /// With the yaw rate of another drive, which has nothing to do with what is seen.
@@ -87,7 +89,7 @@ fn unrelated(log: DriveLog, seed: u64) -> DriveLog {
 #[test]
 fn a_yaw_rate_that_has_nothing_to_do_with_the_scans_tells_nothing() {
     for (scenario, seeds) in [(Scenario::City, [4, 7, 22]), (Scenario::DenseTraffic, [6, 16, 1])] {
-        let counts = count(&[scenario], seeds, unrelated);
+        let counts = count(&[scenario], seeds.into_iter().take(sized(3, 2)), unrelated);
         assert_eq!(counts[0][..2], [0, 0], "{counts:?}");
     }
     if let Some(most) = seeds() {
@@ -130,7 +132,7 @@ fn a_sequence_of_radarscenes_tells_both_by_all_radars_and_by_each() {
     let beside = Companions { scenes: None, sensors: Some(&sensors) };
     let log = read_path(&data, beside, &mut ReadReport::default()).unwrap();
     assert_told("all", &log, [true, true]);
-    for sensor in log.sensors.clone() {
+    for sensor in log.sensors.clone().into_iter().take(sized(4, 1)) {
         let mut one = log.clone();
         one.sensors.retain(|other| other.id == sensor.id);
         assert_told(&format!("radar {}", sensor.id), &one, [false, false]);

@@ -1,5 +1,6 @@
-//! The joint estimate of vehicles over simulated drives that err as real ones do. `VEHICLES=24` takes as many; the default is for every day.
+//! The joint estimate of vehicles over simulated drives that err as real ones do.
 
+use crate::size::sized;
 use crate::tally::Tally;
 use boresight_core::Random;
 use boresight_core::drive::RADARSCENES_SENSORS;
@@ -145,8 +146,7 @@ fn merged(vehicles: &[Vehicle], options: &MergeOptions) -> Tallies {
 
 #[test]
 fn drives_together_know_the_angles_of_simulated_vehicles_better_and_say_how_well() {
-    let count = std::env::var("VEHICLES").map_or(3, |count| count.parse().unwrap());
-    let vehicles: Vec<Vehicle> = (1..=count).map(vehicle).collect();
+    let vehicles: Vec<Vehicle> = (1..=sized(8, 1)).map(vehicle).collect();
     let mut alone = Tally::default();
     let mut squares = 0.0;
     for (error, sigma) in vehicles.iter().flat_map(|vehicle| &vehicle.alone) {

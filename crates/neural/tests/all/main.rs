@@ -6,6 +6,8 @@ mod bad_input;
 mod classifiers;
 mod golden;
 mod regions;
+#[path = "../../../../tests/support/size.rs"]
+mod size;
 mod spectrum;
 mod support;
 mod target_set;

@@ -1,5 +1,6 @@
 //! AAETR on simulated scenes, against the truth and the Cramer-Rao bound.
 
+use crate::size::sized;
 use crate::support::model;
 use boresight_aoa::bounds::{Signals, deterministic_bound, single_snapshot};
 use boresight_aoa::{Data, Estimate, EstimatorOptions, Source, Warning};
@@ -203,11 +204,11 @@ fn a_network_for_any_array_takes_each() {
     let scattered: Vec<[f64; 3]> =
         (0..24).map(|k| [0.0, f64::from(k) * 1.3 + 0.4 * f64::from(k * k % 5), 0.0]).collect();
     let arrays = [
-        ("awr1843", preset("awr1843").unwrap(), 1),
         ("scattered", Array::new(&scattered).unwrap(), 3),
+        ("awr1843", preset("awr1843").unwrap(), 1),
         ("cascade86", preset("cascade86").unwrap(), 4),
     ];
-    for (name, array, targets) in arrays {
+    for (name, array, targets) in arrays.into_iter().take(sized(3, 1)) {
         let beam = 2.0 / array.aperture();
         let mut estimator = network.estimator(&array, &options()).unwrap();
         let mut within = Within::default();
