@@ -1,5 +1,5 @@
 //! Simulated boards whose elements are off by 1 dB and 10 deg, with and without that level as `mismatch_db`:
-//! `cargo test -p boresight-aoa --test mismatch -- --nocapture` prints how often each counts right.
+//! `cargo test -p boresight-aoa --test all mismatch:: -- --nocapture` prints how often each counts right.
 
 use boresight_aoa::order::counting::{CountOptions, Criterion, count_sources_in};
 use boresight_aoa::{Data, Estimator, EstimatorOptions, Method, SourceCount};

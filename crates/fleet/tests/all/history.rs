@@ -1,4 +1,4 @@
-//! Histories against what they were simulated with. `cargo test -p boresight-fleet --test history -- --nocapture` prints the tables.
+//! Histories against what they were simulated with. `BORESIGHT_FULL=1 cargo test -p boresight-fleet --test all history:: -- --nocapture` prints the tables.
 
 use crate::size::sized;
 use boresight_core::Random;

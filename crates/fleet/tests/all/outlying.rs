@@ -1,4 +1,4 @@
-//! Vehicles called outlying, against fleets that were drawn. `cargo test -p boresight-fleet --test outlying -- --nocapture` prints the tables.
+//! Vehicles called outlying, against fleets that were drawn. `cargo test -p boresight-fleet --test all outlying:: -- --nocapture` prints the tables.
 
 use boresight_core::Random;
 use boresight_fleet::{Outlying, VehicleAngle};
