@@ -39,7 +39,7 @@ export const MUTATIONS = [
     file: 'web/lib/generated/options.ts',
     from: ' * - `none`: Plain IAA.',
     to: ' * - `none`: Plain.',
-    test: [rust('generate')],
+    test: [[...rust('options'), '-p', 'boresight-generate']],
   },
   {
     name: 'axis of a page',
