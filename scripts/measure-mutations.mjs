@@ -33,7 +33,7 @@ async function failure(folder, commands = []) {
   for (const command of commands) {
     const { ok, text } = await runKeeping(process.execPath, command, { cwd: folder });
     if (ok) continue;
-    const first = /^.*(?:✖|panicked at|error\b).*$/m.exec(text)?.[0] ?? text.trimEnd().split('\n').at(-1);
+    const first = /^.*(?:✖|panicked at|^error\b).*$/m.exec(text)?.[0] ?? text.trimEnd().split('\n').at(-1);
     return `${command.join(' ')}: ${first.trim()}`;
   }
   return null;

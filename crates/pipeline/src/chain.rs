@@ -420,3 +420,20 @@ pub(crate) fn channels_of(
     }
     Err(given(format!("has {tx} transmitters x {rx} receivers, {} elements", array.len())))
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use boresight_simulate::waveform_awr1642;
+
+    #[test]
+    fn guard_and_training_cells_grow_with_the_padding_of_their_axis() {
+        let mut options = ChainOptions::default();
+        (options.range_doppler.range_padding, options.range_doppler.doppler_padding) = (1, 4);
+        (options.cfar.guard_cells, options.cfar.training_cells) = ([3, 1], [5, 2]);
+        let transform = RangeDoppler::new(&waveform_awr1642(), 4, &options.range_doppler).unwrap();
+        let padded = cfar_options(&options, &transform);
+        assert_eq!((padded.guard_cells, padded.training_cells), ([3, 4], [5, 8]));
+    }
+}
