@@ -95,3 +95,13 @@ fn wrong_files_say_where() {
     let too_large = file("{'descr': '<u8', 'fortran_order': False, 'shape': (1,)}", &[0xff; 8]);
     assert!(NpyArray::parse(&too_large).unwrap_err().to_string().contains("2^63"));
 }
+
+#[test]
+fn a_header_of_more_axes_than_numpy_has_is_refused() {
+    let of = |axes: usize| {
+        let shape = "1,".repeat(axes);
+        file(&format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({shape})}}"), &[0; 8])
+    };
+    assert_eq!(NpyArray::parse(&of(32)).unwrap().shape, vec![1; 32]);
+    assert!(NpyArray::parse(&of(33)).unwrap_err().to_string().contains("at most 32 axes"));
+}
