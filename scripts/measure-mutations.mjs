@@ -1,6 +1,6 @@
 // Breaks ten things, one after the other, in a clone of the commit that is checked out, and tells which of them the tests
-// find: of each only those that should (scripts/lib/mutations.mjs). Fails where `npm test` finds fewer than eight, or `npm run test:all` not all.
-// `--only TEXT` takes those whose name has it; `--clone FOLDER` keeps the clone there, and what was built in it for the
+// find: of each only those that should (scripts/lib/mutations.mjs). Fails where `npm test` finds fewer than eight, or
+// `npm run test:all` not all. `--only TEXT` takes those whose name has it; `--clone FOLDER` keeps the clone there, and what was built in it for the
 // next time. Takes half an hour.
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -20,6 +20,8 @@ async function checkout() {
   const commit = output('git', ['rev-parse', 'HEAD'])?.trim();
   const folder = values.clone ? resolve(values.clone) : mkdtempSync(join(tmpdir(), 'boresight-mutations-'));
   if (!existsSync(join(folder, '.git'))) await run('git', ['clone', '--quiet', root, folder]);
+  const origin = output('git', ['-C', folder, 'remote', 'get-url', 'origin'])?.trim();
+  if (resolve(origin ?? '') !== resolve(root)) throw new Error(`${folder} is not a clone of ${root}`);
   if (spawnSync('git', ['-C', folder, 'diff', '--quiet', 'HEAD']).status !== 0) {
     throw new Error(`${folder} has changes that are not committed`);
   }
