@@ -21,7 +21,7 @@ async function checkout() {
   const folder = values.clone ? resolve(values.clone) : mkdtempSync(join(tmpdir(), 'boresight-mutations-'));
   if (!existsSync(join(folder, '.git'))) await run('git', ['clone', '--quiet', root, folder]);
   const origin = output('git', ['-C', folder, 'remote', 'get-url', 'origin'])?.trim();
-  if (resolve(origin ?? '') !== resolve(root)) throw new Error(`${folder} is not a clone of ${root}`);
+  if (!origin || resolve(origin) !== resolve(root)) throw new Error(`${folder} is not a clone of ${root}`);
   if (spawnSync('git', ['-C', folder, 'diff', '--quiet', 'HEAD']).status !== 0) {
     throw new Error(`${folder} has changes that are not committed`);
   }
