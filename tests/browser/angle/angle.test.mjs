@@ -1,4 +1,5 @@
 import assert from 'node:assert/strict';
+import { button, control, twoFrames } from '../lib/controls.mjs';
 import { assertCsv, assertPng, parameters, parametersWith, reload, saved, values } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { typeNumber, typeText } from '../lib/type.mjs';
@@ -7,16 +8,12 @@ const path =
   '#/angle?array=ula10&targets=-5:0,12:0&snr=20&snapshots=100&seed=7&methods=bartlett,capon,music,root-music';
 const estimates = (page, method) =>
   values(page, `[data-table="results"] [data-row="${method}"] [data-field="azimuth"]`);
-const field = (page, role, name) => page.getByRole(role, { name, exact: true });
 const plotOf = (page, name) => page.getByRole('figure', { name, exact: true });
-const save = (scope, kind) => scope.getByRole('button', { name: kind, exact: true });
-const spectrumCsv = (page) => saved(page, save(plotOf(page, 'Angle spectrum'), 'CSV'));
-const tableCsv = (page) => saved(page, save(field(page, 'region', 'Estimates and errors'), 'CSV'));
+const spectrumCsv = (page) => saved(page, button(plotOf(page, 'Angle spectrum'), 'CSV'));
+const tableCsv = (page) => saved(page, button(control(page, 'region', 'Estimates and errors'), 'CSV'));
 /** A target's ring on the plot. */
 const ring = (page, number) =>
   plotOf(page, 'Angle spectrum').getByRole('button', { name: `Target ${number}: azimuth` });
-const drawn = (page) =>
-  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 const shown = (page, method) => page.waitForSelector(`[data-row="${method}"] [data-field="azimuth"][data-value]`);
 
 browserTest('angle lab: estimates lie within five bounds of the targets', { path }, async ({ page }) => {
@@ -66,9 +63,9 @@ browserTest('angle lab: dragging a target moves its estimates and the address', 
 
 browserTest('angle lab: the address reproduces the numbers', { path }, async ({ page, context }) => {
   await shown(page, 'music');
-  await typeNumber(field(page, 'spinbutton', 'SNR'), '13');
-  await typeNumber(field(page, 'spinbutton', 'Elements'), '16');
-  await typeNumber(field(page, 'spinbutton', 'Azimuth of target 1, degrees'), '-21.5');
+  await typeNumber(control(page, 'spinbutton', 'SNR'), '13');
+  await typeNumber(control(page, 'spinbutton', 'Elements'), '16');
+  await typeNumber(control(page, 'spinbutton', 'Azimuth of target 1, degrees'), '-21.5');
   await parametersWith(
     page,
     (params) =>
@@ -81,7 +78,7 @@ browserTest('angle lab: the address reproduces the numbers', { path }, async ({ 
   await other.goto(page.url());
   await shown(other, 'root-music');
   assert.deepEqual(await estimates(other, 'root-music'), first);
-  assert.equal(await field(other, 'spinbutton', 'SNR').inputValue(), '13');
+  assert.equal(await control(other, 'spinbutton', 'SNR').inputValue(), '13');
   await reload(page);
   await shown(page, 'root-music');
   assert.deepEqual(await estimates(page, 'root-music'), first);
@@ -102,7 +99,7 @@ browserTest('angle lab: a target can be moved, added and removed from the keyboa
   const rest = await ring(page, 1).elementHandle();
   // The focus goes there with the next frame.
   await page.waitForFunction((node) => node === focused(), rest);
-  await field(page, 'button', 'Add target').focus();
+  await control(page, 'button', 'Add target').focus();
   await page.keyboard.press('Enter');
   await parametersWith(page, (params) => params.get('targets').split(',').length === 2);
 });
@@ -120,11 +117,11 @@ browserTest('angle lab: double clicks add and remove targets', { path }, async (
 
 browserTest('angle lab: what a method cannot do is said, and a bad position too', { path }, async ({ page }) => {
   await shown(page, 'music');
-  const single = field(page, 'checkbox', 'Single-snapshot MUSIC');
+  const single = control(page, 'checkbox', 'Single-snapshot MUSIC');
   assert.ok(await single.isDisabled());
   assert.match(await page.locator('#method-single-snapshot-music-note').innerText(), /single snapshot/);
-  await field(page, 'combobox', 'Virtual array').selectOption('at');
-  const positions = field(page, 'textbox', 'Positions, half wavelengths');
+  await control(page, 'combobox', 'Virtual array').selectOption('at');
+  const positions = control(page, 'textbox', 'Positions, half wavelengths');
   await typeText(positions, '0, 1, x');
   await page
     .getByRole('alert')
@@ -133,14 +130,14 @@ browserTest('angle lab: what a method cannot do is said, and a bad position too'
   await parametersWith(page, (params) => params.get('array') === 'at:0,1,4,6');
   await typeText(positions, '0, 1, 3.5, 6, 9');
   await parametersWith(page, (params) => params.get('array') === 'at:0,1,3.5,6,9');
-  await field(page, 'checkbox', 'ESPRIT').and(page.locator(':disabled')).waitFor();
+  await control(page, 'checkbox', 'ESPRIT').and(page.locator(':disabled')).waitFor();
   assert.match(await page.locator('#method-esprit-note').innerText(), /uniform/);
   // No two of them are one apart, but all stand on a grid of one.
   await typeText(positions, '0, 2, 5');
-  await field(page, 'checkbox', 'Root-MUSIC').and(page.locator(':enabled')).waitFor();
+  await control(page, 'checkbox', 'Root-MUSIC').and(page.locator(':enabled')).waitFor();
   await shown(page, 'root-music');
-  await field(page, 'combobox', 'Virtual array').selectOption('awr1843');
-  await field(page, 'checkbox', 'Off-grid sparse Bayesian learning').and(page.locator(':disabled')).waitFor();
+  await control(page, 'combobox', 'Virtual array').selectOption('awr1843');
+  await control(page, 'checkbox', 'Off-grid sparse Bayesian learning').and(page.locator(':disabled')).waitFor();
   assert.match(await page.locator('#method-sparse-bayesian-note').innerText(), /no elevation/);
 });
 
@@ -160,15 +157,15 @@ browserTest('angle lab: plots and tables are saved as PNG and CSV', { path }, as
   await shown(page, 'music');
   const [elements, pattern] = ['Virtual elements', 'Beam pattern at boresight'].map((name) => plotOf(page, name));
   for (const plot of [plotOf(page, 'Angle spectrum'), elements, pattern])
-    assertPng(await saved(page, save(plot, 'PNG')));
+    assertPng(await saved(page, button(plot, 'PNG')));
   const rows = assertCsv(await spectrumCsv(page), 'azimuth_deg,bartlett_db,capon_db,music_db');
   // The grid, and 90 degrees.
   assert.equal(rows.length, 1025);
   assertCsv(
-    await saved(page, save(elements, 'CSV')),
+    await saved(page, button(elements, 'CSV')),
     'element,x_half_wavelengths,y_half_wavelengths,z_half_wavelengths,tx,rx',
   );
-  assertCsv(await saved(page, save(pattern, 'CSV')), 'azimuth_deg,response_db');
+  assertCsv(await saved(page, button(pattern, 'CSV')), 'azimuth_deg,response_db');
   assertCsv(
     await tableCsv(page),
     'method,target,true_azimuth_deg,true_power_db,azimuth_deg,error_deg,power_db,stated_sigma_deg,crb_sigma_deg,time_ms',
@@ -180,7 +177,7 @@ browserTest('angle lab: a drag zooms, the cursor reads out, a key resets', { pat
   const plot = plotOf(page, 'Angle spectrum');
   const over = await plot.locator('.u-over').boundingBox();
   const label = async () => {
-    await drawn(page);
+    await twoFrames(page);
     return plot.locator('.readout').innerText();
   };
   await page.mouse.move(over.x + over.width / 2, over.y + over.height / 2);
@@ -217,7 +214,7 @@ browserTest(
 
 browserTest('angle lab: without targets the spectra are of noise', { path }, async ({ page }) => {
   await shown(page, 'music');
-  for (let left = 2; left > 0; left--) await field(page, 'button', 'Remove target 1').click();
+  for (let left = 2; left > 0; left--) await control(page, 'button', 'Remove target 1').click();
   await parametersWith(page, (params) => params.get('targets') === '-');
   for (const method of ['bartlett', 'capon'])
     assert.doesNotMatch(await page.locator(`[data-row="${method}"]`).innerText(), /expected/);
@@ -239,8 +236,8 @@ browserTest(
       assertCsv(await spectrumCsv(page), 'azimuth_deg,bartlett_db,music_db').map((row) => row.map(Number));
     const whole = await csv();
     assert.deepEqual(whole.at(-1), [90, ...whole[0].slice(1)]);
-    await field(page, 'combobox', 'Virtual array').selectOption('at');
-    await typeText(field(page, 'textbox', 'Positions, half wavelengths'), '0, 1.3, 2.9, 4.1');
+    await control(page, 'combobox', 'Virtual array').selectOption('at');
+    await typeText(control(page, 'textbox', 'Positions, half wavelengths'), '0, 1.3, 2.9, 4.1');
     await parametersWith(page, (params) => params.get('array') === 'at:0,1.3,2.9,4.1');
     await page.waitForFunction(() => /at|positions/.test(within('[data-plot="spectrum"]', 'figcaption').innerText));
     assert.ok((await csv()).at(-1)[0] < 89);

@@ -1,5 +1,6 @@
 /** Monte-Carlo runs in the angle lab. */
 import assert from 'node:assert/strict';
+import { control } from '../lib/controls.mjs';
 import { assertCsv, clickWhenThere, saved } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { patient } from '../lib/trial.mjs';
@@ -9,7 +10,7 @@ const scene = '#/angle?array=ula10&targets=-5:0,12:0&snr=20&snapshots=100&seed=3
 const HEADER = 'snr_db,crb_deg,bartlett_rmse_deg,bartlett_found,music_rmse_deg,music_found';
 const done = (page) => page.waitForSelector('[data-sweep][aria-busy="false"] [data-plot="sweep-found"]', patient);
 const panel = (page) => page.getByRole('region', { name: 'Monte Carlo', exact: true });
-const field = (page, role, name) => panel(page).getByRole(role, { name, exact: true });
+const field = (page, role, name) => control(panel(page), role, name);
 const runButton = (page) => field(page, 'button', 'Run');
 const save = (page, plot) =>
   panel(page).getByRole('figure', { name: plot, exact: true }).getByRole('button', { name: 'CSV' });

@@ -1,5 +1,6 @@
 import assert from 'node:assert/strict';
 import { root } from '../../../scripts/lib/paths.mjs';
+import { button, control, twoFrames } from '../lib/controls.mjs';
 import { assertCsv, assertPng, clickWhenThere, drop, parametersWith, recording, saved, values } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { openPage, serve } from '../lib/session.mjs';
@@ -14,13 +15,7 @@ const ready = (page, method = 'iaa', field = 'cells') =>
   page.waitForSelector(`${cell(method, field)}[data-value]`, { timeout: 80_000 });
 const value = async (page, method, field) => (await values(page, cell(method, field)))[0];
 const image = (page, method) => page.locator(`[data-plot="image-${method}"]`);
-const field = (page, role, name) => page.getByRole(role, { name, exact: true });
 const cancelled = (page) => page.getByText('Cancelled: what is greyed is of other settings');
-const save = (scope, kind) => scope.getByRole('button', { name: kind, exact: true });
-
-/** What was set in motion is drawn after two frames. */
-const drawn = (page) =>
-  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
 /** What is painted on a plot, as a number that changes with it. */
 const painted = (page, method) =>
@@ -37,7 +32,7 @@ const painted = (page, method) =>
 /** Waits until something else is painted than before, and returns it. */
 async function repainted(page, method, before, change = 'it') {
   for (let tries = 0; tries < 200; tries++) {
-    await drawn(page);
+    await twoFrames(page);
     const now = await painted(page, method);
     if (now !== before) return now;
   }
@@ -51,7 +46,7 @@ async function wheel(page, by) {
   });
   await page.mouse.wheel(0, by);
   await page.evaluate(() => window.wheeled.then(() => {}));
-  await drawn(page);
+  await twoFrames(page);
 }
 
 /** The reading at a share of a plot's width and height. */
@@ -59,7 +54,7 @@ async function reading(page, method, x = 0.5, y = 0.5) {
   const over = image(page, method).locator('.u-over');
   const { width, height } = await over.boundingBox();
   await over.hover({ position: { x: width * x, y: height * y } });
-  await drawn(page);
+  await twoFrames(page);
   const text = await image(page, method).locator('.readout').innerText();
   const [, atX, atY] = /x ([+−]?[\d.]+) m\s+y ([+−]?[\d.]+) m/.exec(text) ?? assert.fail(`the reading is “${text}”`);
   return { text, x: Number(atX.replace('−', '-')), y: Number(atY.replace('−', '-')) };
@@ -93,24 +88,24 @@ browserTest(
     await ready(page);
     const both = await painted(page, 'iaa');
     const cells = await value(page, 'iaa', 'cells');
-    await field(page, 'checkbox', 'left').uncheck();
+    await control(page, 'checkbox', 'left').uncheck();
     await page.waitForFunction(
       ([selector, before]) => Number(document.querySelector(selector)?.dataset.value) < before,
       [cell('iaa', 'cells'), cells],
     );
     const one = await repainted(page, 'iaa', both);
     assert.match((await reading(page, 'iaa', 0.9, 0.9)).text, /not seen/);
-    await field(page, 'checkbox', 'front left').uncheck();
+    await control(page, 'checkbox', 'front left').uncheck();
     await page.waitForSelector('[data-notice="radars"]');
-    await field(page, 'checkbox', 'front left').check();
+    await control(page, 'checkbox', 'front left').check();
     await ready(page);
     let before = one;
     for (const change of [
-      () => field(page, 'checkbox', 'Truth').uncheck(),
-      () => field(page, 'checkbox', 'Fields of view').uncheck(),
-      () => slideTo(field(page, 'slider', 'Opacity'), 30),
-      () => field(page, 'combobox', 'Dynamic range').selectOption('20'),
-      () => field(page, 'combobox', 'Colour map').selectOption('magma'),
+      () => control(page, 'checkbox', 'Truth').uncheck(),
+      () => control(page, 'checkbox', 'Fields of view').uncheck(),
+      () => slideTo(control(page, 'slider', 'Opacity'), 30),
+      () => control(page, 'combobox', 'Dynamic range').selectOption('20'),
+      () => control(page, 'combobox', 'Colour map').selectOption('magma'),
     ]) {
       await change();
       before = await repainted(page, 'iaa', before, String(change));
@@ -159,7 +154,7 @@ browserTest(
     await page.mouse.down();
     await page.mouse.move(x + width / 2 + 40, y + height / 2 + 40, { steps: 5 });
     await page.mouse.up();
-    await drawn(page);
+    await twoFrames(page);
     const dragged = await reading(page, 'bartlett');
     const metres = (40 * (zoomed.x - 21)) / (height / 2);
     assert.ok(
@@ -188,7 +183,7 @@ browserTest(
   async ({ page, context }) => {
     await ready(page);
     const shown = async (at) => {
-      await drawn(at);
+      await twoFrames(at);
       return [
         await value(at, 'iaa', 'outsideDb'),
         await value(at, 'iaa', 'sources'),
@@ -222,18 +217,18 @@ browserTest('bird’s-eye view: work is cancelled and taken up again', { path: s
 
 browserTest('bird’s-eye view: what cannot be is said', { path: small }, async ({ page }) => {
   await ready(page);
-  const reach = field(page, 'spinbutton', 'Reach');
+  const reach = control(page, 'spinbutton', 'Reach');
   await typeNumber(reach, '0');
   assert.match(await page.locator('.problem:visible').innerText(), /from 2 to 300/);
   await typeNumber(reach, '300');
-  await field(page, 'combobox', 'Cell').selectOption('0.1');
+  await control(page, 'combobox', 'Cell').selectOption('0.1');
   const alert = page.getByRole('alert');
   await alert.filter({ hasText: /9\.4 million.*too-large/s }).waitFor();
   await typeNumber(reach, '20');
   await alert.waitFor({ state: 'detached' });
   await ready(page);
   assert.equal(await alert.count(), 0);
-  const single = field(page, 'checkbox', 'Single-snapshot MUSIC');
+  const single = control(page, 'checkbox', 'Single-snapshot MUSIC');
   assert.ok(await single.isDisabled());
   assert.match(await page.locator('#method-single-snapshot-music-note').innerText(), /uniform/);
   await page.goto(`${page.url().split('#')[0]}#/birdseye?seed=-1&cell=7&radars=roof&methods=magic&view=1:0:0:1`);
@@ -255,7 +250,7 @@ browserTest(
     assert.equal(await page.locator('[data-field="outsideDb"]').count(), 0, 'nothing is measured without a truth');
     assert.match(await page.locator('.birdseye-bar .legend').innerText(), /Object the board reported/);
     const before = await painted(page, 'iaa');
-    await field(page, 'slider', 'Frame').press('ArrowRight');
+    await control(page, 'slider', 'Frame').press('ArrowRight');
     await parametersWith(page, (params) => params.get('frame') === '1');
     await ready(page);
     await repainted(page, 'iaa', before);
@@ -270,12 +265,12 @@ browserTest(
 
 browserTest('bird’s-eye view: images and tables are saved', { path: small }, async ({ page }) => {
   await ready(page);
-  assertPng(await saved(page, save(image(page, 'iaa'), 'PNG')));
-  assertPng(await saved(page, save(page, 'PNG of all')));
-  const rows = assertCsv(await saved(page, save(image(page, 'iaa'), 'CSV')), 'x_m,y_m,power_dbfs,radar');
+  assertPng(await saved(page, button(image(page, 'iaa'), 'PNG')));
+  assertPng(await saved(page, button(page, 'PNG of all')));
+  const rows = assertCsv(await saved(page, button(image(page, 'iaa'), 'CSV')), 'x_m,y_m,power_dbfs,radar');
   assert.ok(rows.length > 5000, `${rows.length} cells`);
   assertCsv(
-    await saved(page, save(page.getByRole('region', { name: 'How clean the images are' }), 'CSV')),
+    await saved(page, button(page.getByRole('region', { name: 'How clean the images are' }), 'CSV')),
     'method,from,outside_db,peak_outside_db,lit_outside_share,lit_targets_share,cells,directions,unresolved_cells,off_map,time_ms',
   );
 });

@@ -1,6 +1,7 @@
 /** Controls of a page as a person finds them: by role and name. */
 
-const named = (role) => (scope, name) => scope.getByRole(role, { name, exact: true });
+export const control = (scope, role, name) => scope.getByRole(role, { name, exact: true });
+const named = (role) => (scope, name) => control(scope, role, name);
 export const button = named('button');
 export const checkbox = named('checkbox');
 export const combobox = named('combobox');

@@ -7,6 +7,7 @@ import { calibrateDrive } from 'boresight';
 import { WebSocketServer } from 'ws';
 import { drive, messages, pointCloud } from '../../viewers/messages.mjs';
 import { foxgloveServer } from '../../viewers/server.mjs';
+import { control } from '../lib/controls.mjs';
 import { parameters, parametersWith } from '../lib/demo.mjs';
 import { browserTest, skipWithoutBrowser } from '../lib/harness.mjs';
 import { typeNumber, typeText } from '../lib/type.mjs';
@@ -54,10 +55,9 @@ const history = (page) =>
     return { timeS: Array.from(timeS), angleDeg: Array.from(angleDeg), sigmaDeg: Array.from(sigmaDeg) };
   });
 
-const field = (page, role, name) => page.getByRole(role, { name, exact: true });
-const serverField = (page) => field(page, 'textbox', 'Server');
-const placeAhead = (page) => field(page, 'spinbutton', 'Ahead of rear axle');
-const nominalAngle = (page) => field(page, 'spinbutton', 'Nominal angle');
+const serverField = (page) => control(page, 'textbox', 'Server');
+const placeAhead = (page) => control(page, 'spinbutton', 'Ahead of rear axle');
+const nominalAngle = (page) => control(page, 'spinbutton', 'Nominal angle');
 const notice = (page, text) => page.locator('[data-notice="live"]').filter({ hasText: text }).waitFor();
 /** Waits until a field holds a text by itself. */
 const holds = async (page, control, text) =>
@@ -75,7 +75,7 @@ async function until(holds, what) {
 /** Types an address and connects by the keyboard. */
 async function connectTo(page, given) {
   await typeText(serverField(page), given);
-  await field(page, 'button', 'Connect').press('Enter');
+  await control(page, 'button', 'Connect').press('Enter');
 }
 
 /** Waits until the page has subscribed to topics. */
@@ -146,7 +146,7 @@ browserTest(
     assert.equal((await history(page)).timeS.length, timeS.length);
     await connection(page, 'connected');
     // Another drive ends it.
-    await field(page, 'combobox', 'Drive').selectOption('delphi');
+    await control(page, 'combobox', 'Drive').selectOption('delphi');
     await page.waitForFunction(() => !document.querySelector('[data-connection]'));
     await until(
       () => server.sockets.clients.size === 0,
@@ -163,17 +163,17 @@ browserTest(
     await connectTo(page, address(server));
     await subscribed(server, '/radar/scan', '/odometry');
     await typeNumber(placeAhead(page), '3.6');
-    await typeNumber(field(page, 'spinbutton', 'Left of centre line'), '0.7');
+    await typeNumber(control(page, 'spinbutton', 'Left of centre line'), '0.7');
     await typeNumber(nominalAngle(page), '30');
-    await field(page, 'combobox', 'Azimuth positive').selectOption('right');
-    await field(page, 'combobox', 'Range rate positive').selectOption('closing');
+    await control(page, 'combobox', 'Azimuth positive').selectOption('right');
+    await control(page, 'combobox', 'Range rate positive').selectOption('closing');
     await parametersWith(page, (state) => state.get('rangeRateSign') === 'closing' && state.get('nominal') === '30');
     await server.play(messages(made, 'ros', { azimuth: -1, rangeRate: -1 }), { each: 100 });
     await factIs(page, 'scans', made.frames.length - 2);
     const { angleDeg, sigmaDeg } = await history(page);
     assert.ok(Math.abs(angleDeg.at(-1) - made.sensor.yawDeg) < 4 * sigmaDeg.at(-1), `${angleDeg.at(-1)}`);
     assert.ok(angleDeg.length > 30);
-    await field(page, 'button', 'Begin anew').click();
+    await control(page, 'button', 'Begin anew').click();
     await page.waitForFunction(() => document.querySelector('[data-plot="live-angle"]').history.timeS.length === 0);
   },
 );
@@ -216,7 +216,7 @@ browserTest(
     await page.locator('[data-fact="connections"]').filter({ hasText: '2, 1 times anew' }).waitFor();
     second.drop();
     await connection(page, 'waiting');
-    await field(page, 'button', 'Cancel').click();
+    await control(page, 'button', 'Cancel').click();
     await connection(page, 'idle');
     expectRefused(problems);
   },
@@ -247,7 +247,7 @@ browserTest(
     await connection(page, 'waiting');
     await parametersWith(page, (state) => state.get('server') === `ws://localhost:${free}`);
     await notice(page, `answers at ws://localhost:${free}`);
-    await field(page, 'button', 'Cancel').click();
+    await control(page, 'button', 'Cancel').click();
     await connection(page, 'idle');
     await page.locator('[data-notice="live"]').waitFor({ state: 'detached' });
     assert.ok(expectRefused(problems) >= 1);
@@ -256,7 +256,7 @@ browserTest(
     await new Promise((resolve) => mute.once('listening', resolve));
     await connectTo(page, `ws://127.0.0.1:${mute.address().port}`);
     await connection(page, 'connecting');
-    await field(page, 'button', 'Cancel').click();
+    await control(page, 'button', 'Cancel').click();
     await connection(page, 'idle');
     mute.close();
     assert.deepEqual(await findings(page), []);
@@ -325,7 +325,7 @@ browserTest(
       assert.equal(count(), times, told());
     };
     await asked(2);
-    const scans = field(page, 'combobox', 'Scans');
+    const scans = control(page, 'combobox', 'Scans');
     await scans.selectOption(channels[0].topic);
     await asked(1);
     const idOf = (channel) => subscriptions.findLast(({ channelId }) => channelId === channel).id;
@@ -368,7 +368,7 @@ browserTest(
     for (const { topic, message } of messages(made, 'boresight').slice(0, 2500))
       send(topic === '/car/motion' ? 2 : 1, JSON.stringify(message));
     await page.waitForFunction(() => document.querySelector('[data-plot="live-angle"]')?.history.timeS.length > 10);
-    await field(page, 'button', 'Disconnect').click();
+    await control(page, 'button', 'Disconnect').click();
     await connection(page, 'idle');
     assert.ok((await history(page)).timeS.length > 10, 'what was found stays');
     expectRefused(problems);

@@ -3,6 +3,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from '../../../scripts/lib/paths.mjs';
 import { clouds } from '../../node/lib/clouds.mjs';
+import { control, twoFrames } from '../lib/controls.mjs';
 import {
   assertCsv,
   assertJson,
@@ -23,18 +24,15 @@ const golden = (name) => join(root, 'tests', 'golden', name);
 const cell = (method, field) => `[aria-busy="false"] [data-row="${method}"] [data-field="${field}"]`;
 const ready = (page, method = 'recursive') => page.waitForSelector(`${cell(method, 'angleDeg')}[data-value]`);
 const value = async (page, method, field) => (await values(page, cell(method, field)))[0];
-const field = (scope, role, name) => scope.getByRole(role, { name, exact: true });
-const placeAhead = (page) => field(page, 'spinbutton', 'Ahead of rear axle');
-const timeSlider = (page) => field(page, 'slider', 'Time');
+const placeAhead = (page) => control(page, 'spinbutton', 'Ahead of rear axle');
+const timeSlider = (page) => control(page, 'slider', 'Time');
 const alert = (page) => page.getByRole('alert');
 const plot = (page, name) => page.locator(`[data-plot="${name}"]`);
 const results = (page) => page.getByRole('region', { name: /^Mounting angle of radar \d$/ });
-const save = (scope, kind) => field(scope, 'button', kind);
+const save = (scope, kind) => control(scope, 'button', kind);
 /** Waits until a drive is open whose name and format are such. */
 const driveIs = (page, name) => page.locator('[data-fact="name"]').filter({ hasText: name }).waitFor();
-const drawn = (page) =>
-  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-const atFrame = (page, number) => field(page, 'region', 'Time').getByText(`frame ${number} of`).waitFor();
+const atFrame = (page, number) => control(page, 'region', 'Time').getByText(`frame ${number} of`).waitFor();
 /** Waits until the frame that is shown lies between two. */
 const frameBetween = (page, low, high) =>
   page.waitForFunction(
@@ -145,7 +143,7 @@ browserTest(
       const over = plot(page, name).locator('.u-over');
       const { width, height } = await over.boundingBox();
       await over.hover({ position: { x: width / 2, y: height / 2 } });
-      await drawn(page);
+      await twoFrames(page);
       return plot(page, name).locator('.readout').innerText();
     };
     const numbers = (text) => [...text.replaceAll('−', '-').matchAll(/[+-]?\d+\.\d+/g)].map(Number);
@@ -179,7 +177,7 @@ browserTest(
       assert.ok(Math.abs(angle - 2) < 0.1, `${method}: ${angle}`);
       assert.equal(await page.locator(cell(method, 'misaligned')).innerText(), '–', 'no alarm without a nominal angle');
     }
-    await typeNumber(field(page, 'spinbutton', 'Nominal angle'), '2');
+    await typeNumber(control(page, 'spinbutton', 'Nominal angle'), '2');
     await page.waitForFunction(
       (selector) => document.querySelector(selector)?.textContent === 'no',
       cell('recursive', 'misaligned'),
@@ -241,7 +239,7 @@ browserTest(
     assert.equal(await page.locator(cell('recursive', 'sigmaDeg')).innerText(), 'not determined');
     assert.equal(await page.locator(cell('recursive', 'angleDeg')).innerText(), '–');
     assert.match(await page.locator('[data-table="results"] .warnings').innerText(), /no-frames/);
-    assert.equal(await field(page, 'combobox', 'Radar').getByRole('option').count(), 2);
+    assert.equal(await control(page, 'combobox', 'Radar').getByRole('option').count(), 2);
     assert.match(
       await page.locator('[data-plot="birds-eye"] .legend').innerText(),
       /Ring: moving by the drive’s own labels/,
@@ -304,10 +302,10 @@ browserTest(
     assert.ok(share >= 0 && share < max, `${share} of ${max}`);
     await page.waitForSelector('[data-cancelled]');
     assert.equal(await page.locator('[data-row="least-squares"] [data-field="angleDeg"]').count(), 0);
-    await field(page, 'button', 'Calibrate again').click();
+    await control(page, 'button', 'Calibrate again').click();
     await ready(page, 'least-squares');
     const used = await value(page, 'least-squares', 'used');
-    await typeNumber(field(page, 'spinbutton', 'Slowest'), '10');
+    await typeNumber(control(page, 'spinbutton', 'Slowest'), '10');
     await page.waitForFunction(
       ([selector, before]) => Number(document.querySelector(selector)?.dataset.value) < before,
       [cell('least-squares', 'used'), used],
@@ -323,7 +321,7 @@ browserTest(
     await clickWhenThere(page, '[data-opening] button');
     await page.waitForSelector('[data-interrupted]');
     assert.equal(await page.locator('[data-fact="name"]').count(), 0);
-    await typeNumber(field(page, 'spinbutton', 'Duration'), '10');
+    await typeNumber(control(page, 'spinbutton', 'Duration'), '10');
     await page.waitForSelector('[data-fact="name"]');
     await ready(page, 'weighted-mean');
     assert.equal(await page.locator('[data-interrupted]').count(), 0);
@@ -344,11 +342,11 @@ browserTest(
       const [error, sigma] = [await value(page, method, 'error'), await value(page, method, 'sigmaDeg')];
       assert.ok(Math.abs(error) < 5 * sigma && sigma < 0.5, `${method}: ${error} +- ${sigma}`);
     }
-    await field(page, 'combobox', 'Radar').selectOption('3');
-    await field(page, 'region', 'Mounting angle of radar 3').waitFor();
+    await control(page, 'combobox', 'Radar').selectOption('3');
+    await control(page, 'region', 'Mounting angle of radar 3').waitFor();
     await ready(page);
     await timeSlider(page).press('ArrowRight');
-    await field(page, 'combobox', 'Band').selectOption('2');
+    await control(page, 'combobox', 'Band').selectOption('2');
     await parametersWith(
       page,
       (params) => params.get('sensor') === '3' && params.get('band') === '2' && params.has('t'),
@@ -365,7 +363,7 @@ browserTest(
       [await frameNumber(page), await value(page, 'recursive', 'angleDeg'), await value(page, 'kabsch', 'angleDeg')],
       shown,
     );
-    assert.equal(await field(page, 'combobox', 'Band').inputValue(), '2');
+    assert.equal(await control(page, 'combobox', 'Band').inputValue(), '2');
   },
 );
 
@@ -483,7 +481,7 @@ browserTest(
   async ({ page }) => {
     await ready(page);
     assert.equal(await page.locator('[data-outlook]').count(), 0);
-    await typeNumber(field(page, 'spinbutton', 'Settled below σ'), '0.08');
+    await typeNumber(control(page, 'spinbutton', 'Settled below σ'), '0.08');
     await page.waitForSelector('[aria-busy="false"] [data-outlook]');
     assert.match(await page.locator('[data-outlook] p').first().innerText(), /^Next\./);
     await page.getByText('What a minute more would bring', { exact: true }).click();

@@ -1,12 +1,12 @@
 // Networks on the pages of the other methods: the angle lab, Capture, Bird’s-eye view.
 import assert from 'node:assert/strict';
+import { control } from '../lib/controls.mjs';
 import { assertCsv, parametersWith, saved, values } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { patient } from '../lib/trial.mjs';
 import { typeNumber, typeText } from '../lib/type.mjs';
 
-const field = (page, role, name) => page.getByRole(role, { name, exact: true });
-const method = (page, title) => field(page, 'checkbox', title);
+const method = (page, title) => control(page, 'checkbox', title);
 
 browserTest(
   'networks in the angle lab: one that fits loads and estimates, others say which array they are for',
@@ -19,12 +19,12 @@ browserTest(
     assert.ok(await method(page, 'DNN (network)').isDisabled());
     assert.match(await page.locator('#method-dnn-note').innerText(), /8 elements|uniform/);
     assert.match(await page.locator('#method-cnn3d-note').innerText(), /region/);
-    await field(page, 'checkbox', 'Refine by Gauss-Newton').check();
+    await control(page, 'checkbox', 'Refine by Gauss-Newton').check();
     await page.waitForSelector('[data-row="learned-pursuit"] [data-field="error"][data-value]', patient);
-    await field(page, 'combobox', 'Virtual array').selectOption('ula');
+    await control(page, 'combobox', 'Virtual array').selectOption('ula');
     await page.waitForSelector('#method-learned-pursuit-note:not([hidden])');
     assert.match(await page.locator('#method-learned-pursuit-note').innerText(), /lrr48/);
-    await typeNumber(field(page, 'spinbutton', 'Elements'), '8');
+    await typeNumber(control(page, 'spinbutton', 'Elements'), '8');
     await method(page, 'DNN (network)').check();
     await page.waitForSelector('[data-row="dnn"]', patient);
     await parametersWith(page, (params) => params.get('methods').split(',').includes('dnn'));
@@ -50,9 +50,9 @@ browserTest(
     };
     await check();
     await page.getByText('bars ±σ it states').first().waitFor();
-    await field(page, 'combobox', 'Virtual array').selectOption('at');
+    await control(page, 'combobox', 'Virtual array').selectOption('at');
     await typeText(
-      field(page, 'textbox', 'Positions, half wavelengths'),
+      control(page, 'textbox', 'Positions, half wavelengths'),
       Array.from({ length: 20 }, (_, k) => (1.7 * k + 0.5 * ((k * k) % 3)).toFixed(1)).join(', '),
     );
     await parametersWith(page, (params) => params.get('array')?.split(',').length === 20);
@@ -88,7 +88,7 @@ browserTest(
   { path: '#/capture?frame=3' },
   async ({ page }) => {
     await page.waitForSelector('[data-table="detections"] [data-field="rangeM"][data-value]');
-    const regions = field(page, 'region', 'Regions, counted and told by networks');
+    const regions = control(page, 'region', 'Regions, counted and told by networks');
     const find = regions.getByRole('button', { name: 'Find regions' });
     await find.click();
     // Both targets of the recording, at 2.95 and 4.94 m, with Bartlett's azimuths.
@@ -110,7 +110,7 @@ browserTest(
     // As far as the paper's regions reach, weaker peaks are part of those of stronger ones.
     const number = '[data-table="regions"][aria-busy="false"] [data-count]';
     const before = await page.locator(number).getAttribute('data-count');
-    await typeNumber(field(page, 'spinbutton', 'Reach'), '32');
+    await typeNumber(control(page, 'spinbutton', 'Reach'), '32');
     await page.waitForFunction(
       ([selector, many]) => Number(document.querySelector(selector)?.dataset.count) < Number(many),
       [number, before],

@@ -2,17 +2,17 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from '../../../scripts/lib/paths.mjs';
+import { control } from '../lib/controls.mjs';
 import { assertCsv, assertPng, drop, parametersWith, reload, saved, values } from '../lib/demo.mjs';
 import { browserTest } from '../lib/harness.mjs';
 import { card, cell, file, models, patient, tried } from '../lib/trial.mjs';
 
 const path = '#/networks?model=learned-pursuit';
-const field = (scope, role, name) => scope.getByRole(role, { name, exact: true });
-const network = (page) => field(page, 'combobox', 'Network');
+const network = (page) => control(page, 'combobox', 'Network');
 const attempt = (page) => page.getByRole('region', { name: /^Try it: / });
-const run = (page) => field(attempt(page), 'button', 'Run on this scene').click();
+const run = (page) => control(attempt(page), 'button', 'Run on this scene').click();
 const plot = (page, name) => page.locator(`[data-plot="${name}"]`);
-const save = (scope, kind) => field(scope, 'button', kind);
+const save = (scope, kind) => control(scope, 'button', kind);
 /** What chooses a network in the list of all. */
 const chooser = (page, name) => page.locator(`[data-network="${name}"]`).getByRole('button');
 const experiment = (name) => join(root, 'research', 'results', `${name}.json`);
@@ -91,15 +91,15 @@ browserTest(
     await tried(page);
     for (const method of ['learned-pursuit', 'iaa', 'nomp'])
       assert.deepEqual(await cell(page, method, 'rmse'), before[method]);
-    await field(page, 'checkbox', 'Refine by Gauss-Newton').check();
+    await control(page, 'checkbox', 'Refine by Gauss-Newton').check();
     await page.waitForSelector('[data-attempt$="refined"]', patient);
     const [refined] = await cell(page, 'learned-pursuit', 'rmse');
     assert.ok(refined <= before['learned-pursuit'][0], `refined ${refined}, ${before['learned-pursuit']} before`);
-    await field(page.getByRole('form', { name: 'Networks settings' }), 'button', 'Stop').press('Enter');
+    await control(page.getByRole('form', { name: 'Networks settings' }), 'button', 'Stop').press('Enter');
     await parametersWith(page, (params) => !params.has('run'));
     assertPng(await saved(page, save(plot(page, 'attempt'), 'PNG')));
     assertCsv(
-      await saved(page, save(field(page, 'region', 'What each found'), 'CSV')),
+      await saved(page, save(control(page, 'region', 'What each found'), 'CSV')),
       'method,found,missed,false,rmse_deg,power_error_db,median_ms',
     );
   },
@@ -112,7 +112,7 @@ browserTest(
     await page.waitForSelector('[data-attempt^="lrr48"]', patient);
     await page.getByText('bars ±σ it states').first().waitFor(patient);
     for (const array of ['cascade86', 'ula32']) {
-      await field(page, 'combobox', 'Array').selectOption(array);
+      await control(page, 'combobox', 'Array').selectOption(array);
       await page.waitForSelector(`[data-attempt^="${array}"]`, patient);
       const [found] = await cell(page, 'aaetr', 'found');
       assert.ok(found >= 2, `${array}: found ${found} of 3`);
@@ -121,7 +121,7 @@ browserTest(
     // Other networks are for one array, and ask for none.
     await network(page).selectOption('learned-pursuit');
     await page.waitForSelector('[data-attempt^="lrr48"]', patient);
-    assert.equal(await field(page, 'combobox', 'Array').count(), 0);
+    assert.equal(await control(page, 'combobox', 'Array').count(), 0);
   },
 );
 
@@ -172,9 +172,9 @@ browserTest(
       (half) => document.querySelector('[data-loading="learned-pursuit"] progress')?.value === half,
       Math.floor(file('learned-pursuit.onnx').length / 2),
     );
-    await field(attempt(page), 'button', 'Cancel').click();
+    await control(attempt(page), 'button', 'Cancel').click();
     await page.waitForSelector('[data-stopped="learned-pursuit"]');
-    await field(attempt(page), 'button', 'Load').click();
+    await control(attempt(page), 'button', 'Load').click();
     await tried(page);
     await attempt(page).getByText('ready', { exact: true }).waitFor();
   },
@@ -184,10 +184,10 @@ browserTest(
   'networks: times at batches of 1 and 32 beside IAA and NOMP; timing is cancelled',
   { path },
   async ({ page }) => {
-    const timing = field(page, 'region', 'Time it here');
-    const start = field(timing, 'button', 'Time it here');
+    const timing = control(page, 'region', 'Time it here');
+    const start = control(timing, 'button', 'Time it here');
     await start.click();
-    await field(timing, 'button', 'Cancel').click({ timeout: 30_000 });
+    await control(timing, 'button', 'Cancel').click({ timeout: 30_000 });
     await page.waitForSelector('[data-table="timing"][aria-busy="false"]');
     await start.click();
     for (const row of ['network', 'iaa', 'nomp']) {
@@ -342,7 +342,7 @@ for (const name of ['aoa', 'doa'].filter((one) => existsSync(experiment(one)))) 
       for (const name of plots) {
         assertPng(await saved(page, save(plot(page, name), 'PNG')));
       }
-      await field(part, 'combobox', name === 'aoa' ? 'SNR' : 'Two targets').selectOption({ index: 1 });
+      await control(part, 'combobox', name === 'aoa' ? 'SNR' : 'Two targets').selectOption({ index: 1 });
       await parametersWith(page, (params) => params.has(name === 'aoa' ? 'at' : 'range'));
     },
   );

@@ -1,5 +1,6 @@
 /** What is left of the radar or the car is at the left of every plot, and arrows move to the side they point to. */
 import assert from 'node:assert/strict';
+import { twoFrames } from '../lib/controls.mjs';
 import { browserTest } from '../lib/harness.mjs';
 
 const PLOTS = [
@@ -12,9 +13,6 @@ const PLOTS = [
   { path: '#/birdseye?methods=bartlett', plot: 'image-bartlett', axis: 'y' },
 ];
 
-const drawn = (page) =>
-  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-
 for (const path of new Set(PLOTS.map((one) => one.path))) {
   browserTest(`left is left: ${path}`, { path }, async ({ page }) => {
     for (const { plot, axis } of PLOTS.filter((one) => one.path === path)) {
@@ -24,7 +22,7 @@ for (const path of new Set(PLOTS.map((one) => one.path))) {
       const { width, height } = await frame.locator('.u-over').boundingBox();
       const at = async (share) => {
         await frame.locator('.u-over').hover({ position: { x: width * share, y: height * 0.6 } });
-        await drawn(page);
+        await twoFrames(page);
         const text = await frame.locator('.readout').innerText();
         return Number(new RegExp(`\\b${axis} ([+−]?[\\d.]+)`, 'i').exec(text)?.[1].replace('−', '-'));
       };
@@ -41,7 +39,7 @@ browserTest(
     const plot = page.getByRole('figure', { name: 'Angle spectrum' });
     const host = plot.getByRole('application');
     const readout = async () => {
-      await drawn(page);
+      await twoFrames(page);
       const [, azimuth] = /Azimuth ([+−]?[\d.]+)/.exec(await plot.locator('.readout').innerText());
       return Number(azimuth.replace('−', '-'));
     };
