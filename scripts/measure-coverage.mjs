@@ -1,6 +1,6 @@
-// Line coverage: of each crate by the Rust tests of the product (cargo-llvm-cov), and of each folder of the package by its
-// tests in Node (c8). Prints a table; pages for each file are in tests/.output/coverage. `--only rust` or `--only node`
-// measures one. Instrumented tests run several times longer, and are compiled apart from all others.
+// Line coverage of each crate by the product's Rust tests (cargo-llvm-cov), and of each folder of the package by its tests
+// in Node (c8). Prints a table; pages for each file are in tests/.output/coverage. `--only rust` or `--only node`
+// measures one. Instrumented tests are compiled separately and run several times longer.
 import { mkdirSync, readdirSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { parseArgs } from 'node:util';
@@ -19,7 +19,7 @@ async function rust() {
   await run('rustup', ['component', 'add', 'llvm-tools']);
   await cargoTool('cargo-llvm-cov', 'cargo-llvm-cov', '0.9.1');
   await run('cargo', ['llvm-cov', '--no-report', '--quiet']);
-  // Programs that tests kill leave profiles that are cut off.
+  // Programs killed by tests leave truncated profiles.
   const report = ['llvm-cov', 'report', '--failure-mode', 'all'];
   await run('cargo', [...report, '--html', '--output-dir', join(folder, 'rust')]);
   await run('cargo', [...report, '--json', '--summary-only', '--output-path', join(folder, 'rust.json')]);

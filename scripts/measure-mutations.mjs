@@ -1,7 +1,7 @@
-// Breaks ten things, one after the other, in a clone of the commit that is checked out, and tells which of them the tests
-// find: of each only those that should (scripts/lib/mutations.mjs). Fails where `npm test` finds fewer than eight, or
-// `npm run test:all` not all. `--only TEXT` takes those whose name has it; `--clone FOLDER` keeps the clone there, and what was built in it for the
-// next time. Takes half an hour.
+// Introduces ten mistakes, one at a time, in a clone of the current commit, and reports which of them the tests detect
+// (scripts/lib/mutations.mjs lists mistakes and tests). Fails if `npm test` detects fewer than eight, or
+// `npm run test:all` not all. `--only TEXT` selects mistakes by name; `--clone FOLDER` keeps the clone and its build outputs there for the next
+// run. Takes half an hour.
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -11,7 +11,7 @@ import { MUTATIONS, mutated } from './lib/mutations.mjs';
 import { root } from './lib/paths.mjs';
 import { main, output, run, runKeeping } from './lib/run.mjs';
 
-/** As many of ten as `npm test` has to find. */
+/** Share of the mistakes that `npm test` has to detect. */
 const QUICK_SHARE = 0.8;
 
 const { values } = parseArgs({ options: { only: { type: 'string', default: '' }, clone: { type: 'string' } } });
@@ -30,7 +30,7 @@ async function checkout() {
   return folder;
 }
 
-/** Runs commands in the clone until one fails; which did, and what it said of that, or null. */
+/** Runs commands in the clone until one fails. Returns that command and its first error line, or null. */
 async function failure(folder, commands = []) {
   for (const command of commands) {
     const { ok, text } = await runKeeping(process.execPath, command, { cwd: folder });

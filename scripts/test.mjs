@@ -25,7 +25,7 @@ const { scripts } = JSON.parse(readFileSync(join(root, 'package.json'), 'utf8'))
 // A step that hangs is ended and has failed.
 const longestStepMs = 30 * 60_000;
 const clippy = (...args) => ['cargo', 'clippy', '--quiet', ...args, '--', '-D', 'warnings'];
-/** Tests of bindings in Node, by the runner that .cargo/config.toml names. */
+/** Tests of the bindings in Node, with the runner set in .cargo/config.toml. */
 const wasmTests = {
   name: 'wasm',
   command: ['cargo', 'test', '--target', wasmTarget, '-p', 'boresight-wasm', '--tests'],
@@ -33,8 +33,8 @@ const wasmTests = {
 };
 
 /**
- * Those of networks, which alone compile tract for WebAssembly in the profile of tests. The runner writes CommonJS into a
- * temporary folder, which a package.json above it may say is not.
+ * Tests of the network bindings. They are separate because they compile tract for WebAssembly in the test profile. The runner
+ * writes CommonJS into a temporary folder, which needs a package.json that says so.
  */
 const wasmNeuralTests = {
   name: 'wasm-neural',
@@ -74,10 +74,10 @@ const npm = (name, ...args) => ({
 
 const build = { name: 'build', work: buildPackage, counts: checkCounts };
 
-/** Needs nothing of what is set up or built, and so runs beside that. */
+/** Does not depend on set-up or build, so it runs in parallel with them. */
 const rustTests = { name: 'rust', command: [node, 'scripts/test-rust.mjs'], counts: cargoCounts };
 
-/** Tests whose default size is a part of the full one (tests/support/size.rs). */
+/** Crates with tests that have a smaller default size (tests/support/size.rs). */
 const fullRustTests = {
   name: 'rust-full',
   command: [
@@ -175,11 +175,11 @@ function chosenSteps(args) {
   return tiers.all.filter(({ name }) => names.includes(name));
 }
 
-/** Runs a step; its output is shown as it comes, or all at its end where others run `beside` it. */
-async function runStep({ name, command, work, variables, counts }, { beside = false } = {}) {
+/** Runs a step. Its output is shown at once, or at its end if it runs in the `background`. */
+async function runStep({ name, command, work, variables, counts }, { background = false } = {}) {
   const started = performance.now();
   const title = `\n=== ${name}`;
-  if (!beside) console.log(title);
+  if (!background) console.log(title);
   let result;
   if (work) {
     result = await work().then(
@@ -192,8 +192,8 @@ async function runStep({ name, command, work, variables, counts }, { beside = fa
   } else {
     const [program, ...args] = typeof command === 'function' ? command() : command;
     const options = { timeout: longestStepMs, env: { ...environment, ...variables } };
-    result = await (beside ? runKeeping : runTee)(program, args, options);
-    if (beside) console.log(`${title}\n${result.text}`);
+    result = await (background ? runKeeping : runTee)(program, args, options);
+    if (background) console.log(`${title}\n${result.text}`);
   }
   const counted = counts(result.text, result.ok);
   // A step that fails without a failed test (it did not compile, it was ended) is a failure too;
@@ -212,8 +212,8 @@ await main(async () => {
   const chosen = chosenSteps(process.argv.slice(2));
   const inCi = Boolean(process.env.CI);
   const started = performance.now();
-  const early = chosen.length > 1 && chosen.includes(rustTests) ? runStep(rustTests, { beside: true }) : undefined;
-  if (early) console.log('rust: runs beside the other steps; its output follows at its end');
+  const early = chosen.length > 1 && chosen.includes(rustTests) ? runStep(rustTests, { background: true }) : undefined;
+  if (early) console.log('rust: runs in parallel with the other steps; its output is shown at its end');
   await setup({ wasmPack: chosen.includes(wasmNeuralTests) });
   const results = [];
   for (const step of chosen) if (!early || step !== rustTests) results.push(await runStep(step));

@@ -1,4 +1,4 @@
-/** Lines of files and those that ran, added up by what `pattern` finds first in a path; other files are left out. */
+/** Sums lines and covered lines by the first group of `pattern` in each path. Files without a match are left out. */
 export function linesByFolder(files, pattern) {
   const sums = new Map();
   for (const { path, lines, covered } of files) {
@@ -12,7 +12,7 @@ export function linesByFolder(files, pattern) {
   return [...sums.values()].sort((a, b) => a.name.localeCompare(b.name));
 }
 
-/** A Markdown table of folders, with their total in the last row. */
+/** A Markdown table of the folders, with a total row. */
 export function coverageTable(head, folders) {
   const total = { name: 'total', lines: 0, covered: 0 };
   for (const { lines, covered } of folders) {

@@ -2,8 +2,8 @@ const rust = (name) => ['scripts/test-rust.mjs', '-p', `boresight-${name}`];
 const steps = (names) => ['scripts/test.mjs', '--only', names];
 
 /**
- * Mistakes that tests have to find: text of a file, what replaces it, and commands, the last of which has to fail:
- * those of `test` are parts of `npm test`, those of `all` of `npm run test:all`.
+ * Mistakes that the tests have to detect. In `file`, `from` is replaced by `to`; then one of the commands has to fail.
+ * Commands in `test` are parts of `npm test`, commands in `all` parts of `npm run test:all`.
  */
 export const MUTATIONS = [
   {
@@ -79,7 +79,7 @@ export const MUTATIONS = [
   },
 ];
 
-/** The text with the mistake in it; an error where the place is not there exactly once. */
+/** The text with the mistake. Throws unless `from` occurs exactly once. */
 export function mutated(text, { name, file, from, to }) {
   const parts = text.split(from);
   if (parts.length !== 2) throw new Error(`${name}: ${file} has “${from}” ${parts.length - 1} times`);

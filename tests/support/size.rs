@@ -1,4 +1,4 @@
-//! How many trials a test takes.
+//! Sample sizes of statistical tests.
 
 /// `full` where `BORESIGHT_FULL` is set (`npm run test:all`), else `quick`.
 pub fn sized<T>(full: T, quick: T) -> T {

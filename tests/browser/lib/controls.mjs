@@ -8,19 +8,19 @@ export const combobox = named('combobox');
 export const figure = named('figure');
 export const region = named('region');
 export const spinbutton = named('spinbutton');
-/** A plot as what takes keys. */
+/** The part of a plot that takes keyboard input. */
 export const plotOf = (page, name) => figure(page, name).getByRole('application');
 
-/** Two frames of the page, in which it may draw. */
+/** Waits two animation frames, so that the page can draw. */
 export const twoFrames = (page) =>
   page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
-/** The bar of work of that name. */
+/** The progress bar of a task. */
 export const progress = (page, name) => page.getByRole('progressbar', { name, exact: true });
-/** Its button to cancel, for scripts in the page. */
+/** Selector of the task's cancel button, for scripts in the page. */
 export const cancelOf = (name) => `progress[aria-label="${name}"] ~ button`;
 
-/** Chooses files with a button of the page. */
+/** Opens the file chooser with a control and selects files. */
 export async function choose(page, opener, list) {
   const [chooser] = await Promise.all([page.waitForEvent('filechooser'), opener.click()]);
   await chooser.setFiles(

@@ -28,8 +28,8 @@ after(async () => {
 /**
  * A test on a page of the demo. Options: `path`, `viewport` (`desktop`, `phone`), `scheme`
  * (`light`, `dark`), `before` (a script ahead of the page's own), `sockets` (addresses it may connect to), `served` (gives another site than the built demo), `timeout` (ms), and any of Playwright's context
- * options. On failure the page is pictured in tests/.output/screenshots. Under CI a test that fails is tried once more, in a
- * fresh page; one that passes then is named in the closing lines of the run (`passedOnRetry` of scripts/lib/summary.mjs).
+ * options. On failure the page is pictured in tests/.output/screenshots. Under CI a failed test runs once more in a fresh
+ * page. If it passes then, the closing lines of the run name it (`passedOnRetry` in scripts/lib/summary.mjs).
  */
 export function browserTest(name, { served, timeout = 90_000, ...options }, body) {
   const attempts = process.env.CI ? 2 : 1;
