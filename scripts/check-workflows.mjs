@@ -6,10 +6,14 @@ import { root } from './lib/paths.mjs';
 import { main } from './lib/run.mjs';
 
 await main(async () => {
-  const lint = await createLinter();
   const folder = '.github/workflows';
   const files = readdirSync(join(root, folder)).map((name) => `${folder}/${name}`);
-  const found = files.flatMap((file) => lint(readFileSync(join(root, file), 'utf8'), file));
+  const found = [];
+  for (const file of files) {
+    // One linter each: a linter that has read several workflows ends with the trap "unreachable".
+    const lint = await createLinter();
+    found.push(...lint(readFileSync(join(root, file), 'utf8'), file));
+  }
   console.log(`${files.length} workflows, ${found.length} problems`);
   if (found.length > 0) {
     throw new Error(found.map(({ file, line, column, message }) => `${file}:${line}:${column}: ${message}`).join('\n'));

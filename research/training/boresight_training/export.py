@@ -46,7 +46,10 @@ SEEDS = {"example": 7, "metrics": 30_000, "confidence": 40_000, "deviations": 50
 
 
 def restore(folder: Path, **places: Path) -> tuple[dict, Task, torch.nn.Module]:
-    """Checkpoint, task and averaged network of a training folder or a file of weights; `places` are those of stored data."""
+    """Checkpoint, task and averaged network of a training folder or a file of weights.
+
+    `places` are those of stored data.
+    """
     saved = checkpoint.load(folder)
     if saved is None:
         raise FileNotFoundError(f"{folder} holds no {checkpoint.NAME}")
