@@ -2,11 +2,11 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { after, before } from 'node:test';
 import { root } from '../../../scripts/lib/paths.mjs';
 import { consumer } from '../../packaging/consumer.mjs';
 import { parametersWith } from '../lib/demo.mjs';
-import { skipWithoutBrowser } from '../lib/harness.mjs';
+import { retriedTest, skipWithoutBrowser } from '../lib/harness.mjs';
 import { launch, openPage, serve } from '../lib/session.mjs';
 import { leave, typeNumber } from '../lib/type.mjs';
 
@@ -82,7 +82,7 @@ const beside = (page) =>
   });
 
 for (const name of NAMES) {
-  test(`${name}: the code for a page shows what the gallery shows`, { skip: skipWithoutBrowser }, async () => {
+  retriedTest(`${name}: the code for a page shows what the gallery shows`, {}, async () => {
     const gallery = await opened(name);
     const shown = await words(gallery.page, name);
     const code = await codeOf(gallery.page, 'HTML');
@@ -106,57 +106,60 @@ for (const name of NAMES) {
   });
 }
 
-test('the code for React shows the same, all elements on a page', {
-  skip: skipWithoutBrowser,
-  timeout: 300_000,
-}, async () => {
-  const shown = {};
-  const files = {};
-  for (const name of NAMES) {
-    const { page, close } = await opened(name);
-    shown[name] = await words(page, name);
-    files[`src/${name}.jsx`] = await codeOf(page, 'React');
-    await close();
-  }
-  const component = (name) => name.replace(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase());
-  files['src/main.jsx'] = [
-    "import { createRoot } from 'react-dom/client';",
-    ...NAMES.map((name) => `import { ${component(name)} } from './${name}.jsx';`),
-    `createRoot(document.getElementById('root')).render(<>${NAMES.map((name) => `<${component(name)} />`).join('')}</>);`,
-  ].join('\n');
-  files['index.html'] =
-    '<!doctype html><link rel="icon" href="data:,"><div id="root"></div><script type="module" src="/src/main.jsx"></script>';
-  const { dependencies, devDependencies } = JSON.parse(
-    readFileSync(join(root, 'docs', 'examples', 'react', 'package.json'), 'utf8'),
-  );
-  const { react, 'react-dom': dom } = dependencies;
-  const plugin = '@vitejs/plugin-react';
-  const project = await consumer({
-    files: {
-      ...files,
-      'vite.config.js': `import react from '${plugin}'; export default { plugins: [react()], build: { target: 'es2022' } };`,
-    },
-    tools: ['vite'],
-    packages: { react, 'react-dom': dom, [plugin]: devDependencies[plugin] },
-  });
-  try {
-    await project.run(project.bin('vite'), ['build', '--logLevel', 'error']);
-    const built = await serve(project.folder, { build: { outDir: join(project.folder, 'dist') } });
-    const page = await browser.newPage();
-    try {
-      await beside(page);
-      await page.goto(built.url);
-      for (const name of NAMES) assert.equal(await words(page, name), shown[name], name);
-    } finally {
-      await page.close();
-      await built.close();
+retriedTest(
+  'the code for React shows the same, all elements on a page',
+  {
+    timeout: 300_000,
+  },
+  async () => {
+    const shown = {};
+    const files = {};
+    for (const name of NAMES) {
+      const { page, close } = await opened(name);
+      shown[name] = await words(page, name);
+      files[`src/${name}.jsx`] = await codeOf(page, 'React');
+      await close();
     }
-  } finally {
-    project.remove();
-  }
-});
+    const component = (name) => name.replace(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase());
+    files['src/main.jsx'] = [
+      "import { createRoot } from 'react-dom/client';",
+      ...NAMES.map((name) => `import { ${component(name)} } from './${name}.jsx';`),
+      `createRoot(document.getElementById('root')).render(<>${NAMES.map((name) => `<${component(name)} />`).join('')}</>);`,
+    ].join('\n');
+    files['index.html'] =
+      '<!doctype html><link rel="icon" href="data:,"><div id="root"></div><script type="module" src="/src/main.jsx"></script>';
+    const { dependencies, devDependencies } = JSON.parse(
+      readFileSync(join(root, 'docs', 'examples', 'react', 'package.json'), 'utf8'),
+    );
+    const { react, 'react-dom': dom } = dependencies;
+    const plugin = '@vitejs/plugin-react';
+    const project = await consumer({
+      files: {
+        ...files,
+        'vite.config.js': `import react from '${plugin}'; export default { plugins: [react()], build: { target: 'es2022' } };`,
+      },
+      tools: ['vite'],
+      packages: { react, 'react-dom': dom, [plugin]: devDependencies[plugin] },
+    });
+    try {
+      await project.run(project.bin('vite'), ['build', '--logLevel', 'error']);
+      const built = await serve(project.folder, { build: { outDir: join(project.folder, 'dist') } });
+      const page = await browser.newPage();
+      try {
+        await beside(page);
+        await page.goto(built.url);
+        for (const name of NAMES) assert.equal(await words(page, name), shown[name], name);
+      } finally {
+        await page.close();
+        await built.close();
+      }
+    } finally {
+      project.remove();
+    }
+  },
+);
 
-test('a form of the schema changes picture, code and link, key by key', { skip: skipWithoutBrowser }, async () => {
+retriedTest('a form of the schema changes picture, code and link, key by key', {}, async () => {
   const { page, problems, close } = await opened('spectrum');
   const before = await words(page, 'spectrum');
   await page.getByRole('combobox', { name: 'Method', exact: true }).selectOption('music');
@@ -187,9 +190,7 @@ test('a form of the schema changes picture, code and link, key by key', { skip: 
   await close();
 });
 
-test('a link brings an element with its options, and what it says wrongly is named', {
-  skip: skipWithoutBrowser,
-}, async () => {
+retriedTest('a link brings an element with its options, and what it says wrongly is named', {}, async () => {
   const { page, close } = await opened('birds-eye', '&set=@colors:magma,egoSpeedMps:5');
   await words(page, 'birds-eye');
   assert.equal(await page.locator('boresight-birds-eye').getAttribute('colors'), 'magma');
@@ -202,7 +203,7 @@ test('a link brings an element with its options, and what it says wrongly is nam
   await wrong.close();
 });
 
-test('an option that the data do not allow is told', { skip: skipWithoutBrowser }, async () => {
+retriedTest('an option that the data do not allow is told', {}, async () => {
   const { page, close } = await opened('spectrum', '&set=smoothing:1024');
   await page.locator('[data-error]').waitFor();
   await page.getByRole('button', { name: 'Defaults' }).click();
@@ -211,7 +212,7 @@ test('an option that the data do not allow is told', { skip: skipWithoutBrowser 
   await close();
 });
 
-test('code is copied by the keyboard', { skip: skipWithoutBrowser }, async () => {
+retriedTest('code is copied by the keyboard', {}, async () => {
   const { page, close } = await opened('mounting-angle');
   await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
   const code = await codeOf(page, 'Notebook');

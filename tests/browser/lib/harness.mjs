@@ -26,17 +26,16 @@ after(async () => {
 });
 
 /**
- * A test on a page of the demo. Options: `path`, `viewport` (`desktop`, `phone`), `scheme`
- * (`light`, `dark`), `before` (a script ahead of the page's own), `sockets` (addresses it may connect to), `served` (gives another site than the built demo), `timeout` (ms), and any of Playwright's context
- * options. On failure the page is pictured in tests/.output/screenshots. Under CI a failed test runs once more in a fresh
- * page. If it passes then, the closing lines of the run name it (`passedOnRetry` in scripts/lib/summary.mjs).
+ * A test that needs the browser. Under CI, where other work may slow a page, a failed test runs once
+ * more. If it passes then, the closing lines of the run name it (`passedOnRetry` in
+ * scripts/lib/summary.mjs).
  */
-export function browserTest(name, { served, timeout = 90_000, ...options }, body) {
+export function retriedTest(name, { timeout = 90_000, skip = skipWithoutBrowser }, body) {
   const attempts = process.env.CI ? 2 : 1;
-  test(name, { skip: skipWithoutBrowser, timeout: attempts * timeout }, async (context) => {
+  test(name, { skip, timeout: attempts * timeout }, async (context) => {
     for (let attempt = 1; ; attempt++) {
       try {
-        await runOnPage(name, served, options, body, context);
+        await body(context);
         if (attempt > 1) console.error(`passed on retry: ${name}`);
         return;
       } catch (error) {
@@ -45,6 +44,16 @@ export function browserTest(name, { served, timeout = 90_000, ...options }, body
       }
     }
   });
+}
+
+/**
+ * A test on a page of the demo. Options: `path`, `viewport` (`desktop`, `phone`), `scheme` (`light`,
+ * `dark`), `before` (a script ahead of the page's own), `sockets` (addresses it may connect to),
+ * `served` (gives another site than the built demo), `timeout` (ms), and any of Playwright's context
+ * options. On failure the page is pictured in tests/.output/screenshots.
+ */
+export function browserTest(name, { served, timeout, ...options }, body) {
+  retriedTest(name, { timeout }, (context) => runOnPage(name, served, options, body, context));
 }
 
 async function runOnPage(name, served, options, body, context) {
