@@ -89,6 +89,14 @@ const fullRustTests = {
   counts: cargoCounts,
 };
 
+/** The test in Node that has a smaller default size. */
+const fullNodeTests = {
+  name: 'node-full',
+  command: [node, '--test', 'tests/node/hostile.test.mjs'],
+  variables: { BORESIGHT_FULL: '1' },
+  counts: nodeCounts,
+};
+
 /** `npm test`: what a change of code needs. */
 const test = [
   rustTests,
@@ -140,6 +148,7 @@ const check = [
 /** The rest of `npm run test:all`. */
 const rest = [
   fullRustTests,
+  fullNodeTests,
   wasmNeuralTests,
   { name: 'build-reference', work: buildReference, counts: checkCounts },
   { name: 'packaging', command: () => nodeTests('tests/packaging', '--test-concurrency=1'), counts: nodeCounts },

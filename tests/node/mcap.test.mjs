@@ -134,6 +134,12 @@ describe('recordings', () => {
     const stream = new DriveStream();
     throwsTyped(() => stream.push(new Uint8Array(40)), 'malformed-file');
     stream.free();
+    const gone = new (class extends Blob {
+      slice() {
+        return { arrayBuffer: () => Promise.reject(new DOMException('the file was moved', 'NotFoundError')) };
+      }
+    })([bytes]);
+    await rejectsTyped(pool.readDriveStream(gone), 'unreadable-file', 'recording');
     await rejectsTyped(pool.readDriveStream(new Blob(['no recording at all'])), 'malformed-file');
     await rejectsTyped(pool.readDriveStream(new Blob([])), 'no-drive-log');
     await rejectsTyped(pool.readDriveStream('drive.mcap'), 'wrong-type');

@@ -1,5 +1,5 @@
 // Recordings in pieces, of which no more than one is held and one is on its way.
-import { wrong } from '../lib/runtime/errors.js';
+import { BoresightError, wrong } from '../lib/runtime/errors.js';
 import { isArray } from '../lib/runtime/given.js';
 import type { Recording } from '../lib/types.js';
 
@@ -51,11 +51,28 @@ export async function* piecesOf(parts: readonly Recording[]): AsyncGenerator<Rec
 }
 
 async function* slicesOf(blob: Blob): AsyncGenerator<Uint8Array> {
-  const slice = (start: number): Promise<ArrayBuffer> => blob.slice(start, start + PIECE_BYTES).arrayBuffer();
+  const slice = (start: number): Promise<ArrayBuffer> => {
+    const bytes = blob
+      .slice(start, start + PIECE_BYTES)
+      .arrayBuffer()
+      .catch((cause: unknown) => {
+        throw unreadable(cause);
+      });
+    // A slice that is read ahead may fail before it is awaited, or never be awaited.
+    bytes.catch(() => {});
+    return bytes;
+  };
   let next = slice(0);
   for (let start = 0; start < blob.size; start += PIECE_BYTES) {
     const bytes = await next;
     if (start + PIECE_BYTES < blob.size) next = slice(start + PIECE_BYTES);
     yield new Uint8Array(bytes);
   }
+}
+
+/** A file that was moved, changed or unplugged while it was read. */
+function unreadable(cause: unknown): BoresightError {
+  const given = cause instanceof Error ? cause.message : String(cause);
+  const details = { what: 'recording', expected: 'a file that stays readable and unchanged', given };
+  return new BoresightError('unreadable-file', `the recording could not be read: ${given}`, details, { cause });
 }
