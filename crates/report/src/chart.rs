@@ -1,45 +1,48 @@
-//! Lines over a pair of axes, as SVG without text that has to be measured: plotters measures it by a page's document, which workers
-//! do not have.
+//! Charts as SVG. Text is placed without measuring it, which needs a document that WebAssembly workers lack.
 
+use crate::axis::{extent, labels};
 use maud::{Markup, html};
 use std::fmt::Write as _;
 
-/// Size of the picture and of its margins (left, right, top, bottom), in its own units.
-const SIZE: [f64; 2] = [720.0, 250.0];
+/// Width and height of a chart in a report, px.
+pub const SIZE: [f64; 2] = [720.0, 250.0];
+/// Margins between the chart's edges and its axes (left, right, top, bottom), px.
 const MARGIN: [f64; 4] = [80.0, 12.0, 14.0, 44.0];
-/// About as many labels an axis.
-const TICKS: f64 = 6.0;
 
-/// What is drawn, by the name of its style.
+/// A part of a chart, with the CSS class that styles it.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Mark {
-    /// A line through points; where one is not finite it is broken.
-    Line(&'static str, Vec<[f64; 2]>),
-    /// The area between two ordinates at abscissas.
-    Band(&'static str, Vec<[f64; 3]>),
-    /// An ordinate all along.
-    Level(&'static str, f64),
-    /// An abscissa all along.
-    Upright(&'static str, f64),
-    /// Points of an abscissa, an ordinate and the ordinate's deviation, which is drawn as a bar where it is finite.
-    Points(&'static str, Vec<[f64; 3]>),
+pub enum Mark<'a> {
+    /// Line through points. It is interrupted at points that the axes cannot show.
+    Line(&'a str, Vec<[f64; 2]>),
+    /// Area between two ordinates, as points of an abscissa and both ordinates.
+    Band(&'a str, Vec<[f64; 3]>),
+    /// Horizontal line at an ordinate.
+    Level(&'a str, f64),
+    /// Vertical line at an abscissa.
+    Upright(&'a str, f64),
+    /// Dots at an abscissa and an ordinate, with error bars where the third number, the standard deviation, is finite.
+    Points(&'a str, Vec<[f64; 3]>),
 }
 
-/// A pair of axes.
+/// A pair of axes with marks.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Chart {
-    /// What it shows, for those who do not see it.
+pub struct Chart<'a> {
+    /// Description for screen readers.
     pub title: String,
-    /// Labels with units.
-    pub axes: [&'static str; 2],
-    /// Smallest and largest ordinate; those of the marks if `None`.
+    /// Labels of abscissa and ordinate, with units.
+    pub axes: [&'a str; 2],
+    /// Whether abscissa and ordinate are logarithmic. Such an axis shows positive numbers only.
+    pub logarithmic: [bool; 2],
+    /// Smallest and largest ordinate. Without valid limits, those of the marks are used.
     pub limits: Option<[f64; 2]>,
-    /// In the order in which they are drawn.
-    pub marks: Vec<Mark>,
+    /// Width and height, px.
+    pub size: [f64; 2],
+    /// Marks, from back to front.
+    pub marks: Vec<Mark<'a>>,
 }
 
-impl Chart {
-    /// As an SVG element; what lies beyond the axes is cut off.
+impl Chart<'_> {
+    /// Returns an SVG element. Marks are clipped at the axes, by a path with the given id.
     pub fn svg(&self, id: &str) -> Markup {
         let points = || {
             self.marks.iter().flat_map(|mark| match mark {
@@ -51,20 +54,44 @@ impl Chart {
                 Mark::Level(_, _) | Mark::Upright(_, _) => vec![],
             })
         };
-        let x = extent(points().map(|point| point[0]));
-        let y = self.limits.unwrap_or_else(|| extent(points().map(|point| point[1])));
-        let [left, right, top, bottom] =
-            [MARGIN[0], SIZE[0] - MARGIN[1], MARGIN[2], SIZE[1] - MARGIN[3]];
-        let across = |value: f64| left + (value - x[0]) / (x[1] - x[0]) * (right - left);
-        let up = |value: f64| bottom - (value - y[0]) / (y[1] - y[0]) * (bottom - top);
-        let [width, height] = SIZE;
-        let (across_labels, across_digits) = ticks(x);
-        let (up_labels, up_digits) = ticks(y);
-        let at = |point: [f64; 2]| {
-            format!("{:.1} {:.1}", across(point[0]), up(point[1]).clamp(-1e4, 1e4))
+        // On logarithmic axes zero and less become minus infinity, where lines break and error bars leave the axes.
+        let scaled = |axis: usize, value: f64| {
+            if self.logarithmic[axis] { value.max(0.0).log10() } else { value }
         };
+        let range = |axis: usize| {
+            let numbers = points().map(|point| scaled(axis, point[axis]));
+            extent(numbers, self.logarithmic[axis])
+        };
+        let given = self.limits.map(|limits| limits.map(|value| scaled(1, value)));
+        let given = given.filter(|[low, high]| low < high && (high - low).is_finite());
+        let limits = [range(0), given.unwrap_or_else(|| range(1))];
+        let [width, height] = self.size;
+        let [left, right, top, bottom] =
+            [MARGIN[0], width - MARGIN[1], MARGIN[2], height - MARGIN[3]];
+        let place = |axis: usize, value: f64| {
+            let [low, high] = limits[axis];
+            let [from, to] = [[left, right], [bottom, top]][axis];
+            let share = (scaled(axis, value) - low) / (high - low);
+            (from + share * (to - from)).clamp(-1e4, 1e4)
+        };
+        let across = |value: f64| place(0, value);
+        let up = |value: f64| place(1, value);
+        let at = |point: [f64; 2]| format!("{:.1} {:.1}", across(point[0]), up(point[1]));
+        let shown = |x: f64, y: f64| scaled(0, x).is_finite() && scaled(1, y).is_finite();
         let drawn = |mark: &Mark| match mark {
-            Mark::Line(class, points) => html! { path class=(class) d=(line(points, at)) {} },
+            Mark::Line(class, points) => {
+                let mut path = String::new();
+                let mut command = "M";
+                for point in points {
+                    if shown(point[0], point[1]) {
+                        path = path + command + &at(*point);
+                        command = "L";
+                    } else {
+                        command = "M";
+                    }
+                }
+                html! { path class=(class) d=(path) {} }
+            }
             Mark::Band(class, points) => {
                 let there = points.iter().map(|p| [p[0], p[1]]);
                 let back = points.iter().rev().map(|p| [p[0], p[2]]);
@@ -72,23 +99,18 @@ impl Chart {
                 html! { polygon class=(class) points=(corners.join(" ")) {} }
             }
             Mark::Level(class, value) => {
-                let at = up(*value).clamp(-1e4, 1e4);
-                html! { path class=(class) d=(format!("M{left} {at:.1}H{right}")) {} }
+                html! { path class=(class) d=(format!("M{left} {:.1}H{right}", up(*value))) {} }
             }
             Mark::Upright(class, value) => {
-                let at = across(*value).clamp(-1e4, 1e4);
-                html! { path class=(class) d=(format!("M{at:.1} {top}V{bottom}")) {} }
+                html! { path class=(class) d=(format!("M{:.1} {top}V{bottom}", across(*value))) {} }
             }
             Mark::Points(class, points) => {
                 let [mut bars, mut dots] = [String::new(), String::new()];
-                for [x, y, deviation] in points {
-                    if !(x.is_finite() && y.is_finite()) {
-                        continue;
-                    }
+                for [x, y, deviation] in points.iter().filter(|p| shown(p[0], p[1])) {
                     // A line of no length, whose round ends make the dot.
                     let _ = write!(dots, "M{}h0", at([*x, *y]));
                     if deviation.is_finite() {
-                        let end = up(y + deviation).clamp(-1e4, 1e4);
+                        let end = up(y + deviation);
                         let _ = write!(bars, "M{}V{end:.1}", at([*x, y - deviation]));
                     }
                 }
@@ -98,21 +120,22 @@ impl Chart {
                 }
             }
         };
+        let labels = |axis: usize| labels(limits[axis], self.logarithmic[axis]);
         html! {
             svg viewBox={ "0 0 " (width) " " (height) } role="img" aria-label=(self.title) {
                 clipPath id=(id) {
                     rect x=(left) y=(top) width=(right - left) height=(bottom - top) {}
                 }
-                @for value in across_labels {
+                @for (value, label) in labels(0) {
                     path.grid d=(format!("M{:.1} {top}V{bottom}", across(value))) {}
                     text x=(tenths(across(value))) y=(tenths(bottom + 16.0)) text-anchor="middle" {
-                        (format!("{value:.across_digits$}"))
+                        (label)
                     }
                 }
-                @for value in up_labels {
+                @for (value, label) in labels(1) {
                     path.grid d=(format!("M{left} {:.1}H{right}", up(value))) {}
                     text x=(tenths(left - 6.0)) y=(tenths(up(value) + 4.0)) text-anchor="end" {
-                        (format!("{value:.up_digits$}"))
+                        (label)
                     }
                 }
                 path.axis d=(format!("M{left} {top}V{bottom}H{right}")) {}
@@ -135,57 +158,20 @@ fn tenths(value: f64) -> String {
     format!("{value:.1}")
 }
 
-/// The path through points; where one is not finite it is broken.
-fn line(points: &[[f64; 2]], at: impl Fn([f64; 2]) -> String) -> String {
-    let mut path = String::new();
-    let mut before = "M";
-    for point in points {
-        if !(point[0].is_finite() && point[1].is_finite()) {
-            before = "M";
-            continue;
-        }
-        path = path + before + &at(*point);
-        before = "L";
-    }
-    path
-}
-
-/// Smallest and largest finite number with a margin; 0 to 1 of none.
-fn extent(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
-    let [low, high] = numbers
-        .filter(|number| number.is_finite())
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
-    if low > high {
-        return [0.0, 1.0];
-    }
-    let margin = if high > low { 0.03 * (high - low) } else { 0.5 };
-    [low - margin, high + margin]
-}
-
-/// Round numbers between two limits, and the digits that tell them apart.
-fn ticks([low, high]: [f64; 2]) -> (Vec<f64>, usize) {
-    let rough = (high - low) / TICKS;
-    let power = rough.log10().floor();
-    let unit = 10_f64.powf(power);
-    let step = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * unit).into_iter().find(|s| *s >= rough);
-    let step = step.unwrap_or(rough);
-    let digits = (-step.log10().floor()).clamp(0.0, 9.0) as usize;
-    let first = (low / step).ceil() as i64;
-    let values = (first..).map(|at| at as f64 * step).take_while(|value| *value <= high);
-    // Zero has no sign.
-    (values.take(20).map(|value| value + 0.0).collect(), digits)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn labels_are_round_and_within_the_limits() {
-        assert_eq!(ticks([0.0, 60.0]), (vec![0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0], 0));
-        let (values, digits) = ticks([-0.31, 0.29]);
-        assert_eq!((values.len(), digits), (6, 1));
-        assert!(values.iter().all(|value| (10.0 * value).fract().abs() < 1e-9), "{values:?}");
+    fn chart(logarithmic: [bool; 2], marks: Vec<Mark>) -> String {
+        let (title, axes) = ("<t>".into(), ["x", "y"]);
+        let chart = Chart { title, axes, logarithmic, limits: None, size: SIZE, marks };
+        chart.svg("a").into_string()
+    }
+
+    /// The path of the only mark of a class.
+    fn path<'a>(svg: &'a str, class: &str) -> &'a str {
+        let start = svg.split(&format!("class=\"{class}\" d=\"")).nth(1).unwrap();
+        start.split('"').next().unwrap()
     }
 
     #[test]
@@ -193,8 +179,7 @@ mod tests {
         for marks in
             [vec![], vec![Mark::Line("line", vec![[f64::NAN; 2], [1.0, 1e300], [2.0, -1e300]])]]
         {
-            let chart = Chart { title: "t".into(), axes: ["x", "y"], limits: None, marks };
-            let svg = chart.svg("a").into_string();
+            let svg = chart([false; 2], marks);
             assert!(svg.ends_with("</g></svg>") && !svg.contains("NaN"), "{svg}");
         }
     }
@@ -203,18 +188,32 @@ mod tests {
     fn points_have_a_bar_where_their_deviation_is_finite() {
         let points = [[0.0, 1.0, 0.5], [1.0, 2.0, f64::INFINITY], [2.0, f64::NAN, 1.0]];
         let marks = vec![Mark::Points("usual", points.to_vec()), Mark::Upright("event", 1.0)];
-        let svg = Chart { title: "<t>".into(), axes: ["x", "y"], limits: None, marks };
-        let svg = svg.svg("a").into_string();
-        let path = |class: &str| {
-            let start = svg.split(&format!("class=\"{class}\" d=\"")).nth(1).unwrap();
-            start.split('"').next().unwrap().to_owned()
-        };
-        assert_eq!(path("bars").matches('M').count(), 1, "{svg}");
-        let dots = path("dots usual");
+        let svg = chart([false; 2], marks);
+        assert_eq!(path(&svg, "bars").matches('M').count(), 1, "{svg}");
+        let dots = path(&svg, "dots usual");
         assert_eq!(dots.matches('M').count(), 2, "{svg}");
         // The vertical goes through the second dot.
         let second = dots.split('M').nth(2).unwrap().split(' ').next().unwrap();
-        assert!(path("event").starts_with(&format!("M{second} ")), "{svg}");
+        assert!(path(&svg, "event").starts_with(&format!("M{second} ")), "{svg}");
         assert!(svg.contains("aria-label=\"&lt;t&gt;\""));
+    }
+
+    #[test]
+    fn a_line_breaks_where_a_logarithmic_axis_has_no_place() {
+        let ordinates = [1.0, 10.0, 0.0, 10.0, -1.0, f64::NAN, f64::INFINITY, 100.0];
+        let points = ordinates.iter().zip(1..).map(|(y, x)| [f64::from(x), *y]).collect();
+        let bar = vec![Mark::Line("line", points), Mark::Points("dot", vec![[1.0, 1.0, 2.0]])];
+        for logarithmic in [[false, true], [true, true]] {
+            let svg = chart(logarithmic, bar.clone());
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+            let line = path(&svg, "line");
+            assert_eq!((line.matches('M').count(), line.matches('L').count()), (3, 1), "{line}");
+            // Two decades: the second point is half way up, the last at the top.
+            let middle = 0.5 * (MARGIN[2] + SIZE[1] - MARGIN[3]);
+            assert!(line.contains(&format!(" {middle:.1}M")), "{line}");
+            assert!(line.ends_with(&format!(" {:.1}", MARGIN[2])), "{line}");
+        }
+        let nothing = vec![Mark::Line("line", vec![[0.0, -1.0]])];
+        assert!(!chart([true, true], nothing).contains("NaN"));
     }
 }

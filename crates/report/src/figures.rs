@@ -1,6 +1,6 @@
 //! The plots of a report.
 
-use crate::chart::{Chart, Mark};
+use crate::chart::{Chart, Mark, SIZE};
 use crate::recorder::Recorder;
 use boresight_mounting::{AngleEstimate, CalibrationOptions};
 use maud::{Markup, html};
@@ -35,7 +35,9 @@ pub(crate) fn angle(
         title: "Angle against time, with its standard deviation, the nominal angle and the limits"
             .into(),
         axes: ["time / s", "angle / deg"],
+        logarithmic: [false; 2],
         limits: Some([last - reach, last + reach]),
+        size: SIZE,
         marks,
     }
     .svg(id)
@@ -48,7 +50,9 @@ pub(crate) fn drive(recorder: &Recorder, id: &str) -> Markup {
         Chart {
             title: title.into(),
             axes: ["time / s", y],
+            logarithmic: [false; 2],
             limits: None,
+            size: SIZE,
             marks: vec![Mark::Line("line", points)],
         }
         .svg(&format!("{id}-{which}"))

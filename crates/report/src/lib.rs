@@ -1,6 +1,7 @@
 //! Calibration reports: facts as text, and a printable HTML page with the verdict, plots, conditions and sources. The page loads
 //! nothing; reports of fleets use the same parts.
 
+mod axis;
 pub mod chart;
 mod facts;
 mod figures;

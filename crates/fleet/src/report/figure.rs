@@ -4,7 +4,7 @@ use super::words::{count, degrees, sane};
 use crate::fleet::{DriveAngle, Vehicle, VehicleRadar};
 use crate::options::FleetOptions;
 use boresight_mounting::wrap;
-use boresight_report::chart::{Chart, Mark};
+use boresight_report::chart::{Chart, Mark, SIZE};
 use maud::Markup;
 
 /// Drives that are drawn of more; beside them those next to a knock and those far off, up to `SPECIAL` each.
@@ -86,7 +86,9 @@ pub(super) fn angles(
     let chart = Chart {
         title: format!("Angle of radar {} over the drives", radar.sensor),
         axes: [x, "angle / deg"],
+        logarithmic: [false; 2],
         limits: Some(limits),
+        size: SIZE,
         marks,
     };
     (chart.svg(id), caption(radar, chosen.len(), beyond))
