@@ -83,9 +83,6 @@ pub enum ValidateError {
         /// Scenes in all.
         total: u64,
     },
-    /// A figure cannot be drawn.
-    #[error("the figure cannot be drawn: {0}")]
-    Figure(String),
     /// Stopped by the caller.
     #[error("stopped after {done} of {total} scenes")]
     Cancelled {
@@ -107,7 +104,6 @@ impl Diagnose for ValidateError {
             Self::Record { .. } | Self::Scene { .. } => "malformed-file",
             Self::Conflict { .. } => "conflict",
             Self::Incomplete { .. } => "incomplete",
-            Self::Figure(_) => "figure",
             Self::Cancelled { .. } => "cancelled",
         }
     }
@@ -148,7 +144,6 @@ impl Diagnose for ValidateError {
             Self::Incomplete { missing, total, .. } => {
                 Details::new("scenes", total.to_string(), (total - *missing as u64).to_string())
             }
-            Self::Figure(error) => Details::new("figure", "one that can be drawn", error.clone()),
             Self::Cancelled { done, total } => {
                 Details::new("scenes", total.to_string(), done.to_string())
             }

@@ -111,10 +111,7 @@ pub trait Report: Serialize {
     const FIGURES: &'static [&'static str];
 
     /// Figures as SVG, in the order of their names; the last ones may be lacking.
-    ///
-    /// # Errors
-    /// [`ValidateError::Figure`].
-    fn figures(&self) -> Result<Vec<String>, ValidateError>;
+    fn figures(&self) -> Vec<String>;
 
     /// As indented JSON; what is no number is `null`.
     fn json(&self) -> String {
@@ -213,7 +210,7 @@ pub fn run<E: Experiment>(
 /// Runs all scenes, and returns what it writes and prints.
 ///
 /// # Errors
-/// As [`run`]; [`ValidateError::Figure`].
+/// As [`run`].
 pub fn run_outcome<E: Experiment>(
     options: &E,
     how: How,
@@ -221,16 +218,12 @@ pub fn run_outcome<E: Experiment>(
 ) -> Result<Outcome, E::Error> {
     let plan = options.plan()?;
     let legs = records(options, how, Part::WHOLE, E::scene, progress)?;
-    Ok(outcome(options, &plan, side_by_side::<E>(legs))?)
+    Ok(outcome(options, &plan, side_by_side::<E>(legs)))
 }
 
 /// What an experiment writes and prints of the records of all its scenes. Standard errors are from the results without
 /// each of [`GROUPS`] groups of scenes.
-pub(crate) fn outcome<E: Experiment>(
-    options: &E,
-    plan: &E::Plan,
-    scenes: Records<E>,
-) -> Result<Outcome, ValidateError> {
+pub(crate) fn outcome<E: Experiment>(options: &E, plan: &E::Plan, scenes: Records<E>) -> Outcome {
     let groups = if options.repeats() >= GROUPS { 0..GROUPS } else { 0..0 };
     let without = groups.map(|group| {
         let others = scenes.iter().filter(|(number, _)| *number % GROUPS != group);
@@ -270,7 +263,7 @@ pub fn run_answered<E: Answered, X: From<E::Error>>(
     };
     let legs = records(options, How { threads, folder: None }, Part::WHOLE, scene, &mut go_on);
     written?;
-    Ok(outcome(options, &plan, side_by_side::<E>(legs?)).map_err(E::Error::from)?)
+    Ok(outcome(options, &plan, side_by_side::<E>(legs?)))
 }
 
 /// Whether a folder has records of an experiment's whole run, of any leg, from which it would go on.
@@ -378,8 +371,8 @@ mod tests {
                 String::new()
             }
             const FIGURES: &'static [&'static str] = &[];
-            fn figures(&self) -> Result<Vec<String>, ValidateError> {
-                Ok(vec![])
+            fn figures(&self) -> Vec<String> {
+                vec![]
             }
         }
         let numbers = [1.0 / 3.0, 123_456.0, f64::NAN, 1e-9 / 3.0];

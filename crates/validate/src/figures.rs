@@ -2,16 +2,12 @@
 
 use crate::candidates::CANDIDATES;
 use crate::condition::{Condition, Convergence, chosen};
-use crate::error::ValidateError;
-use crate::plot::{Axes, Panel, Series, draw};
+use crate::plot::{Panel, Series, draw};
 use crate::statistics::Summary;
 use crate::whole::{BIN_COUNT, BINS, FIGURE_RADAR};
 
 /// Figure 5: the angle of radar 3 by drive, for two published methods and ours.
-///
-/// # Errors
-/// [`ValidateError::Figure`].
-pub fn angles(condition: &Condition) -> Result<String, ValidateError> {
+pub fn angles(condition: &Condition) -> String {
     let truth =
         condition.radars.iter().find(|r| r.sensor == FIGURE_RADAR).map_or(f64::NAN, |r| r.true_deg);
     let scenes = condition.scenes as f64;
@@ -38,13 +34,13 @@ pub fn angles(condition: &Condition) -> Result<String, ValidateError> {
                 title: format!("{}: mean {mean:.3} deg, true {truth:.3} deg", CANDIDATES[k].name),
                 x: "drive".into(),
                 y: "angle / deg".into(),
-                axes: Axes::Linear,
                 y_limits: Some([truth - far, truth + far]),
                 series: vec![
                     line("each drive", points, false, true),
                     line("mean", vec![(1.0, mean), (scenes, mean)], true, false),
                     line("true angle", vec![(1.0, truth), (scenes, truth)], false, false),
                 ],
+                ..Panel::default()
             }
         })
         .collect();
@@ -52,17 +48,14 @@ pub fn angles(condition: &Condition) -> Result<String, ValidateError> {
 }
 
 /// Figure 6: mean absolute error and variance against driving time.
-///
-/// # Errors
-/// [`ValidateError::Figure`].
-pub fn convergence(conditions: &[Condition]) -> Result<String, ValidateError> {
+pub fn convergence(conditions: &[Condition]) -> String {
     let panel = |condition: &Condition, what: &str, value: fn(&Summary) -> f64| Panel {
         title: condition.name.into(),
         x: "driving time / s".into(),
         y: what.into(),
-        axes: Axes::Logarithmic,
-        y_limits: None,
+        logarithmic: [true; 2],
         series: condition.convergence.iter().map(|c| series(c, value)).collect(),
+        ..Panel::default()
     };
     let panels: Vec<Panel> = conditions
         .iter()
@@ -73,16 +66,11 @@ pub fn convergence(conditions: &[Condition]) -> Result<String, ValidateError> {
 }
 
 /// Figure 4: how often the car had which speed and acceleration, over all scans.
-///
-/// # Errors
-/// [`ValidateError::Figure`].
-pub fn states(conditions: &[Condition]) -> Result<String, ValidateError> {
+pub fn states(conditions: &[Condition]) -> String {
     let panel = |which: usize, title: &str, x: &str, y: &str, below: f64| Panel {
         title: title.into(),
         x: x.into(),
         y: y.into(),
-        axes: Axes::Linear,
-        y_limits: None,
         series: conditions
             .iter()
             .map(|condition| {
@@ -98,6 +86,7 @@ pub fn states(conditions: &[Condition]) -> Result<String, ValidateError> {
                 }
             })
             .collect(),
+        ..Panel::default()
     };
     let half = BIN_COUNT as f64 / 2.0;
     draw(

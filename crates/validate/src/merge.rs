@@ -111,11 +111,7 @@ impl Parts {
             typed.push(of_leg);
         }
         let plan = options.plan()?;
-        Ok(Merged {
-            outcome: outcome(&options, &plan, side_by_side::<E>(typed))?,
-            records,
-            sources,
-        })
+        Ok(Merged { outcome: outcome(&options, &plan, side_by_side::<E>(typed)), records, sources })
     }
 }
 

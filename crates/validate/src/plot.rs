@@ -1,220 +1,177 @@
-//! Line plots with labelled axes, as SVG.
+//! Figures of charts in rows under a common legend, as SVG files.
 
-use crate::error::ValidateError;
-use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
-use plotters::prelude::*;
+use boresight_report::chart::{Chart, Mark};
+use maud::{Markup, html};
 
-/// Colours that people with colour-blindness can tell apart: those of Okabe and Ito (2008), then some of
-/// Tol's.
-const COLOURS: [RGBColor; 12] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(86, 180, 233),
-    RGBColor(0, 0, 0),
-    RGBColor(136, 34, 85),
-    RGBColor(153, 153, 51),
-    RGBColor(51, 34, 136),
-    RGBColor(119, 119, 119),
-    RGBColor(204, 102, 119),
-    RGBColor(102, 37, 6),
+/// Colours that colour-blind readers can distinguish: those of Okabe and Ito (2008), then some of Tol's.
+const COLOURS: [&str; 12] = [
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#000000", "#882255", "#999933",
+    "#332288", "#777777", "#cc6677", "#662506",
 ];
-/// Size of a panel and height of a line of the legend, pixels.
-const PANEL: (u32, u32) = (560, 280);
-const LEGEND: u32 = 22;
-
-/// Which axes are logarithmic; those need positive numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Axes {
-    /// None.
-    Linear,
-    /// The abscissa.
-    LogAbscissa,
-    /// The ordinate.
-    LogOrdinate,
-    /// Both.
-    Logarithmic,
-}
+const STYLE: &str = "text{font:11px sans-serif}.title{font-size:13px}svg{overflow:visible}\
+path{fill:none;stroke-width:2;stroke-linejoin:round}.dashed{stroke-dasharray:6 4}\
+.dots{stroke-width:6;stroke-linecap:round;stroke-dasharray:none}\
+.grid{stroke:#e0e0e0;stroke-width:1}.axis{stroke:#444;stroke-width:1}";
+/// Width and height of a panel, the parts of both without a chart (margin and title), and height of a row of the legend, px.
+const PANEL: [f64; 2] = [560.0, 280.0];
+const REST: [f64; 2] = [16.0, 22.0];
+const ROW: f64 = 22.0;
 
 /// One pair of axes.
+#[derive(Debug, Clone, Default)]
 pub struct Panel {
-    /// What it shows.
+    /// Title.
     pub title: String,
     /// Label of the abscissa, with unit.
     pub x: String,
     /// Label of the ordinate, with unit.
     pub y: String,
-    /// Which axes are logarithmic.
-    pub axes: Axes,
+    /// Whether abscissa and ordinate are logarithmic.
+    pub logarithmic: [bool; 2],
     /// Smallest and largest ordinate; those of the points if `None`.
     pub y_limits: Option<[f64; 2]>,
     /// Lines, the same ones in every panel of a figure.
     pub series: Vec<Series>,
 }
 
-impl Panel {
-    /// Whether abscissa and ordinate are logarithmic.
-    fn logarithmic(&self) -> [bool; 2] {
-        let one_of = |axes: [Axes; 2]| axes.contains(&self.axes);
-        [
-            one_of([Axes::LogAbscissa, Axes::Logarithmic]),
-            one_of([Axes::LogOrdinate, Axes::Logarithmic]),
-        ]
-    }
-}
-
 /// One line.
+#[derive(Debug, Clone)]
 pub struct Series {
     /// Name in the legend.
     pub name: String,
-    /// Points.
+    /// Abscissas and ordinates.
     pub points: Vec<(f64, f64)>,
-    /// Dashed.
+    /// Whether the line is dashed.
     pub dashed: bool,
-    /// With a mark at each point.
+    /// Whether each point has a dot.
     pub marked: bool,
 }
 
-/// Draws the panels in rows of `columns` under a legend.
-pub fn draw(panels: &[Panel], columns: usize) -> Result<String, ValidateError> {
-    let rows = panels.len().div_ceil(columns);
-    let width = PANEL.0 * columns as u32;
-    let lines = panels.first().map_or(vec![], |panel| legend_lines(panel, width as i32));
-    let height = 8 + LEGEND * lines.len() as u32;
-    let mut svg = String::new();
-    {
-        let size = (width, PANEL.1 * rows as u32 + height);
-        let area = SVGBackend::with_string(&mut svg, size).into_drawing_area();
-        area.fill(&WHITE).map_err(figure)?;
-        let (top, rest) = area.split_vertically(height);
-        legend(&lines, &top)?;
-        for (panel, area) in panels.iter().zip(rest.split_evenly((rows, columns))) {
-            panel_on(panel, &area)?;
-        }
-        area.present().map_err(figure)?;
-    }
-    Ok(svg)
-}
-
-/// An entry of the legend: its abscissa, line and colour.
-type Entry<'a> = (i32, &'a Series, &'static RGBColor);
-
-/// Entries of the legend in as many lines as they need.
-fn legend_lines(panel: &Panel, width: i32) -> Vec<Vec<Entry<'_>>> {
-    let mut lines = vec![vec![]];
-    let mut x = 16;
-    for (series, colour) in panel.series.iter().zip(COLOURS.iter().cycle()) {
-        let entry = 42 + 6 * series.name.len() as i32;
-        if x > 16 && x + entry > width {
-            lines.push(vec![]);
-            x = 16;
-        }
-        if let Some(line) = lines.last_mut() {
-            line.push((x, series, colour));
-        }
-        x += entry;
-    }
-    lines
-}
-
-fn legend(lines: &[Vec<Entry>], area: &Area) -> Result<(), ValidateError> {
-    for (line, top) in lines.iter().zip((9..).step_by(LEGEND as usize)) {
-        for &(x, series, colour) in line {
-            let dashes = if series.dashed { vec![(0, 7), (11, 18)] } else { vec![(0, 18)] };
-            for (from, to) in dashes {
-                let path = vec![(x + from, top + 6), (x + to, top + 6)];
-                area.draw(&PathElement::new(path, colour.stroke_width(3))).map_err(figure)?;
+/// Draws the panels in rows of `columns` under the legend of the first panel, as an SVG document.
+pub fn draw(panels: &[Panel], columns: usize) -> String {
+    let columns = columns.max(1);
+    let width = PANEL[0] * columns as f64;
+    let series = panels.first().map_or(&[][..], |panel| &panel.series);
+    let places = legend(series, width);
+    let top = places.last().map_or(0.0, |place| place[1]) + ROW;
+    let height = top + PANEL[1] * panels.len().div_ceil(columns) as f64;
+    let figure = html! {
+        svg xmlns="http://www.w3.org/2000/svg" width=(width) height=(height) viewBox={ "0 0 " (width) " " (height) } {
+            style {
+                (STYLE)
+                @for (index, colour) in COLOURS.iter().enumerate() { ".c" (index) "{stroke:" (colour) "}" }
             }
-            let text = Text::new(series.name.as_str(), (x + 23, top), ("sans-serif", 12));
-            area.draw(&text).map_err(figure)?;
+            rect width="100%" height="100%" fill="#fff" {}
+            @for (line, [x, y]) in series.iter().enumerate().zip(places) {
+                g transform={ "translate(" (x) " " (y) ")" } {
+                    path class=(class(line)) d="M0 0h18" {}
+                    text x="23" y="4" { (line.1.name) }
+                }
+            }
+            @for (index, panel) in panels.iter().enumerate() {
+                @let [x, y] = [PANEL[0] * (index % columns) as f64, top + PANEL[1] * (index / columns) as f64];
+                g transform={ "translate(" (x) " " (y) ")" } { (panel.draw(index)) }
+            }
         }
-    }
-    Ok(())
-}
-
-type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
-
-fn panel_on(panel: &Panel, area: &Area) -> Result<(), ValidateError> {
-    let [logarithmic_x, logarithmic_y] = panel.logarithmic();
-    let [x0, x1] = limits(panel, |point| point.0, logarithmic_x);
-    let [y0, y1] = panel.y_limits.unwrap_or_else(|| limits(panel, |point| point.1, logarithmic_y));
-    match panel.axes {
-        Axes::Linear => axes(panel, area, x0..x1, y0..y1),
-        Axes::LogAbscissa => axes(panel, area, (x0..x1).log_scale(), y0..y1),
-        Axes::LogOrdinate => axes(panel, area, x0..x1, (y0..y1).log_scale()),
-        Axes::Logarithmic => axes(panel, area, (x0..x1).log_scale(), (y0..y1).log_scale()),
-    }
-}
-
-fn axes<X, Y>(panel: &Panel, area: &Area, x: X, y: Y) -> Result<(), ValidateError>
-where
-    X: AsRangedCoord<Value = f64>,
-    Y: AsRangedCoord<Value = f64>,
-    X::CoordDescType: ValueFormatter<f64>,
-    Y::CoordDescType: ValueFormatter<f64>,
-{
-    let mut chart = ChartBuilder::on(area)
-        .caption(&panel.title, ("sans-serif", 15))
-        .margin(8)
-        .x_label_area_size(34)
-        .y_label_area_size(60)
-        .build_cartesian_2d(x, y)
-        .map_err(figure)?;
-    // On a logarithmic axis 1, 2 and 5 of each decade.
-    let number = |x: &f64, logarithmic: bool| {
-        let leading = x / 10_f64.powf(x.log10().floor());
-        let shown = [1.0, 2.0, 5.0, 10.0].iter().any(|digit| (leading - digit).abs() < 1e-6);
-        if logarithmic && !shown {
-            return String::new();
-        }
-        format!("{}", (x * 1e6).round() / 1e6)
     };
-    let [logarithmic_x, logarithmic_y] = panel.logarithmic();
-    chart
-        .configure_mesh()
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(BLACK.mix(0.12))
-        .x_desc(&panel.x)
-        .y_desc(&panel.y)
-        .x_label_formatter(&|x| number(x, logarithmic_x))
-        .y_label_formatter(&|y| number(y, logarithmic_y))
-        .draw()
-        .map_err(figure)?;
-    for (series, colour) in panel.series.iter().zip(COLOURS.iter().cycle()) {
-        let style = colour.stroke_width(2);
-        let points = || series.points.iter().copied();
-        if series.dashed {
-            chart.draw_series(DashedLineSeries::new(points(), 6, 4, style))
-        } else {
-            chart.draw_series(LineSeries::new(points(), style))
-        }
-        .map_err(figure)?;
-        if series.marked {
-            let marks = points().map(|point| Circle::new(point, 3, colour.filled()));
-            chart.draw_series(marks).map_err(figure)?;
-        }
-    }
-    Ok(())
+    figure.into_string()
 }
 
-/// Smallest and largest number with a margin.
-fn limits(panel: &Panel, of: fn(&(f64, f64)) -> f64, logarithmic: bool) -> [f64; 2] {
-    let all = || panel.series.iter().flat_map(|s| &s.points).map(of);
-    let usable = |x: &f64| x.is_finite() && (!logarithmic || *x > 0.0);
-    let low = all().filter(usable).fold(f64::INFINITY, f64::min);
-    let high = all().filter(usable).fold(f64::NEG_INFINITY, f64::max);
-    if low > high {
-        return [1.0, 10.0];
+impl Panel {
+    fn draw(&self, index: usize) -> Markup {
+        let size = [PANEL[0] - REST[0], PANEL[1] - REST[1]];
+        let classes: Vec<String> = self.series.iter().enumerate().map(class).collect();
+        let mut marks = vec![];
+        for (series, class) in self.series.iter().zip(&classes) {
+            marks.push(Mark::Line(class, series.points.iter().map(|&(x, y)| [x, y]).collect()));
+            if series.marked {
+                let points = series.points.iter().map(|&(x, y)| [x, y, f64::NAN]);
+                marks.push(Mark::Points(class, points.collect()));
+            }
+        }
+        let chart = Chart {
+            title: format!("{} against {}", self.y, self.x),
+            axes: [&self.x, &self.y],
+            logarithmic: self.logarithmic,
+            limits: self.y_limits,
+            size,
+            marks,
+        };
+        html! {
+            text.title x=(0.5 * PANEL[0]) y="17" text-anchor="middle" { (self.title) }
+            svg y=(REST[1]) width=(size[0]) height=(size[1]) { (chart.svg(&format!("panel{index}"))) }
+        }
     }
-    if logarithmic {
-        // Whole decades: the axis is labelled from one to the next.
-        return [10_f64.powf(low.log10().floor()), 10_f64.powf(high.log10().ceil())];
-    }
-    let margin = if high > low { 0.05 * (high - low) } else { 1.0 };
-    [low - margin, high + margin]
 }
 
-fn figure(error: impl std::fmt::Display) -> ValidateError {
-    ValidateError::Figure(error.to_string())
+/// CSS classes of a numbered line.
+fn class((index, series): (usize, &Series)) -> String {
+    format!("c{}{}", index % COLOURS.len(), if series.dashed { " dashed" } else { "" })
+}
+
+/// Left ends of the legend's entries, px. Widths of names are estimated from their length.
+fn legend(series: &[Series], width: f64) -> Vec<[f64; 2]> {
+    let mut next = [16.0, 15.0];
+    let place = |series: &Series| {
+        let entry = 40.0 + 6.5 * series.name.chars().count() as f64;
+        if next[0] > 16.0 && next[0] + entry > width {
+            next = [16.0, next[1] + ROW];
+        }
+        next[0] += entry;
+        [next[0] - entry, next[1]]
+    };
+    series.iter().map(place).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(name: &str, dashed: bool) -> Series {
+        let points = vec![(1.0, 0.1), (2.0, 0.0), (3.0, f64::NAN), (4.0, 10.0)];
+        Series { name: name.into(), points, dashed, marked: true }
+    }
+
+    #[test]
+    fn panels_share_a_legend_and_the_document_is_well_formed() {
+        let panel = |logarithmic| Panel {
+            title: "a < b".into(),
+            x: "R&D".into(),
+            y: "\"y\"".into(),
+            logarithmic,
+            series: vec![line("solid", false), line("5 > 4", true)],
+            ..Panel::default()
+        };
+        let svg = draw(&[[false; 2], [false, true], [true; 2]].map(panel), 2);
+        let count = |text: &str| svg.matches(text).count();
+        assert!(svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"1120\""));
+        assert_eq!(["panel0", "panel1", "panel2"].map(|id| count(&format!("id=\"{id}\""))), [1; 3]);
+        // The second row has one panel.
+        assert_eq!((count("translate(0 317)"), count("translate(560 317)")), (1, 0), "{svg}");
+        // Lines of three panels and an entry of the legend each.
+        assert_eq!((count("class=\"c0\""), count("class=\"c1 dashed\"")), (4, 4), "{svg}");
+        assert_eq!((count(">solid</text>"), count(">5 &gt; 4</text>")), (1, 1), "{svg}");
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        let mut open = vec![];
+        for tag in svg.split('<').skip(1) {
+            let (name, text) = tag.split_once('>').unwrap();
+            assert!(!text.contains('>'), "{text}");
+            match name.strip_prefix('/') {
+                Some(name) => assert_eq!(open.pop(), Some(name)),
+                None => open.extend(name.split(' ').next()),
+            }
+        }
+        assert!(open.is_empty(), "{open:?}");
+        let entities = ["lt;", "gt;", "amp;", "quot;"];
+        let escaped = |text: &str| entities.iter().any(|entity| text.starts_with(entity));
+        assert!(svg.split('&').skip(1).all(escaped), "{svg}");
+    }
+
+    #[test]
+    fn a_long_legend_takes_several_rows_and_no_panel_needs_none() {
+        let names = ["short", "a name of about forty characters, or more", "another such name"];
+        let places = legend(&names.map(|name| line(name, false)), 400.0);
+        assert_eq!(places.iter().map(|place| place[1]).collect::<Vec<_>>(), [15.0, 15.0, 37.0]);
+        assert!(draw(&[], 0).ends_with("</svg>"));
+    }
 }

@@ -340,7 +340,9 @@ mod tests {
 
     #[test]
     fn the_error_of_a_scene_ends_the_run_and_no_threads_is_an_error() {
-        let wrong = |_| -> Result<u64, ValidateError> { Err(ValidateError::Figure("x".into())) };
+        let wrong = |_| -> Result<u64, ValidateError> {
+            Err(ValidateError::Cancelled { done: 1, total: 9 })
+        };
         let mut sweep = Sweep {
             setup: Value::Null,
             scenes: 0..9,
@@ -350,7 +352,7 @@ mod tests {
         };
         assert!(matches!(
             run(&sweep, wrong, |_| ControlFlow::Continue(())),
-            Err(ValidateError::Figure(_))
+            Err(ValidateError::Cancelled { done: 1, .. })
         ));
         sweep.threads = 0;
         assert!(matches!(

@@ -59,7 +59,7 @@ fn methods_score_in_the_known_order_whatever_the_threads() {
     }
     let ratio = (errors / bounds).sqrt();
     assert!((0.8..1.25).contains(&ratio), "{ratio}");
-    let figures = report.figures().unwrap();
+    let figures = report.figures();
     assert!(figures[0].contains("recall") && figures[1].contains("targets"));
     assert_eq!(report.csv().lines().count(), 1 + 45 * report.methods.len());
     let tables = report.tables().to_string();

@@ -32,7 +32,7 @@ fn a_short_run_holds_every_method_whatever_the_threads_and_its_figures_are_drawn
                 curve.error_deg.iter().zip(&curve.without).map(|(e, w)| e.count + w).collect();
             assert!(parts.is_sorted_by(|a, b| a >= b) && parts[0] > 10, "{parts:?}");
         }
-        let svg = figures::angles(condition).unwrap();
+        let svg = figures::angles(condition);
         assert!(svg.contains("angle / deg") && svg.contains("Kellner"));
     }
     // In half a minute ours is within a quarter of a degree on every radar; in dense traffic, where the
@@ -46,9 +46,9 @@ fn a_short_run_holds_every_method_whatever_the_threads_and_its_figures_are_drawn
     // With errors as RadarScenes a frame in some hundred is independent of the others.
     assert!(worst(2, "recursive") < 1.0, "{}", worst(2, "recursive"));
     assert!(worst(1, "weighted mean (Kellner et al.)") > 1.0);
-    let svg = figures::convergence(&report.conditions).unwrap();
+    let svg = figures::convergence(&report.conditions);
     assert!(svg.contains("driving time / s") && svg.contains("dense traffic"));
-    assert!(figures::states(&report.conditions).unwrap().contains("acceleration / (m/s^2)"));
+    assert!(figures::states(&report.conditions).contains("acceleration / (m/s^2)"));
     for condition in &report.conditions {
         // All scans of four radars, 30 s of some 74 ms each.
         let scans: u64 = condition.states[0].iter().sum();

@@ -58,7 +58,7 @@ fn without_errors_scores_are_those_of_the_plain_experiment_and_errors_lower_them
     }
     assert!(report.tables().to_string().contains("keeps 95 %"));
     assert_eq!(report.csv().lines().count(), 1 + 25 * report.methods.len());
-    assert!(report.figures().unwrap()[0].contains("deviation of phase"));
+    assert!(report.figures()[0].contains("deviation of phase"));
     let between = ImperfectionsExperiment { snr_db: 26.0, ..options };
     let refused = run(&between, HOW, |_| ControlFlow::Continue(())).unwrap_err();
     assert_eq!(refused.details().what, "snrDb");

@@ -52,7 +52,7 @@ fn methods_are_right_far_away_and_wrong_at_the_array() {
     }
     assert_eq!(report.csv().lines().count(), 1 + report.conditions.len() * report.methods.len());
     assert!(report.tables().to_string().contains("Fraunhofer distance 16.50 m"));
-    assert!(report.figures().unwrap()[0].contains("range / Fraunhofer distance"));
+    assert!(report.figures()[0].contains("range / Fraunhofer distance"));
 }
 
 #[test]

@@ -84,7 +84,7 @@ fn a_network_is_scored_as_methods_are_and_its_records_are_its_own() {
         run_part(&alone, how(threads, Some(&networks)), part, go).unwrap();
     }
     let merged = support::merged(&[networks.clone(), methods.clone()], &out);
-    assert!(merged == Outcome::new::<aoa::AoaExperiment>(&report, &[]).unwrap());
+    assert!(merged == Outcome::new::<aoa::AoaExperiment>(&report, &[]));
     assert!(support::merged(std::slice::from_ref(&out), &out) == merged);
     assert!(merged.brief.len() < merged.json.len() / 3);
     // The network of another training under the same name needs records of its own; the methods keep theirs.
@@ -165,7 +165,7 @@ fn networks_of_regions_count_and_estimate_beside_the_rules() {
     let tables = report.tables().to_string();
     let figure_7 = tables.split("Figure 7").nth(1).unwrap().split("Figure 8").next().unwrap();
     assert!(!figure_7.contains("dnn-small-2") && tables.contains("| dnn-small-2 |"), "{tables}");
-    assert!(report.figures().unwrap()[2].contains("dnn-small-2"));
+    assert!(report.figures()[2].contains("dnn-small-2"));
     assert!(!report.csv().contains("one,15,\"dnn-small-2\""));
 }
 

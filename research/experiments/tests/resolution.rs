@@ -63,7 +63,7 @@ fn far_targets_are_resolved_near_ones_are_not_and_the_limit_lies_between() {
     let rows: usize = report.conditions.iter().map(|c| c.methods.len() + 1).sum();
     assert_eq!(report.csv().lines().count(), 1 + rows * SEPARATIONS.len());
     assert!(report.tables().to_string().contains("limit (Smith 2005)"));
-    assert!(report.figures().unwrap()[0].contains("16 snapshots, 20 dB"));
+    assert!(report.figures()[0].contains("16 snapshots, 20 dB"));
 }
 
 #[test]

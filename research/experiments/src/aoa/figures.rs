@@ -2,14 +2,10 @@
 
 use super::TARGETS;
 use super::report::{AoaReport, MethodResult};
-use boresight_validate::ValidateError;
-use boresight_validate::plot::{Axes, Panel, Series, draw};
+use boresight_validate::plot::{Panel, Series, draw};
 
 /// Figure 4: precision against recall at the highest signal-to-noise ratio.
-///
-/// # Errors
-/// [`EvaluateError::Figure`].
-pub fn precision_recall(report: &AoaReport) -> Result<String, ValidateError> {
+pub fn precision_recall(report: &AoaReport) -> String {
     let snr_db = report.snrs_db().last().copied().unwrap_or(f64::NAN);
     let targets = report.targets();
     // The paper's six panels of its nine numbers of targets, or all.
@@ -21,12 +17,12 @@ pub fn precision_recall(report: &AoaReport) -> Result<String, ValidateError> {
             title: format!("{targets} targets, {snr_db} dB"),
             x: "recall".into(),
             y: "precision".into(),
-            axes: Axes::Linear,
             y_limits: Some([0.5, 1.01]),
             series: lines(report, |k| {
                 let result = report.at(targets, snr_db, k);
                 result.map_or(vec![], |m| m.curve.iter().map(|p| (p.recall, p.precision)).collect())
             }),
+            ..Panel::default()
         })
         .collect();
     draw(&panels, 2)
@@ -34,10 +30,7 @@ pub fn precision_recall(report: &AoaReport) -> Result<String, ValidateError> {
 
 /// Figure 5: what is missing of F1 at its largest and at one threshold, and the errors at the largest, against the number
 /// of targets.
-///
-/// # Errors
-/// [`EvaluateError::Figure`].
-pub fn scores(report: &AoaReport) -> Result<String, ValidateError> {
+pub fn scores(report: &AoaReport) -> String {
     type Value = fn(&MethodResult) -> Option<f64>;
     let rows: [(&str, Value); 4] = [
         ("1 - largest F1", |m| m.best.map(|best| 1.0 - best.f1)),
@@ -55,8 +48,7 @@ pub fn scores(report: &AoaReport) -> Result<String, ValidateError> {
                 title: format!("{snr_db} dB"),
                 x: "targets".into(),
                 y: label.into(),
-                axes: Axes::LogOrdinate,
-                y_limits: None,
+                logarithmic: [false, true],
                 series: lines(report, |k| {
                     let point = |&n: &usize| {
                         let value = report.at(n, snr_db, k).and_then(value)?;
@@ -64,6 +56,7 @@ pub fn scores(report: &AoaReport) -> Result<String, ValidateError> {
                     };
                     targets.iter().filter_map(point).collect()
                 }),
+                ..Panel::default()
             });
         }
     }

@@ -4,7 +4,6 @@ use super::CalibrationExperiment;
 use super::scene::SceneRecord;
 use boresight_simulate::drive::DriveProfile;
 use boresight_validate::condition::Condition;
-use boresight_validate::error::ValidateError;
 use boresight_validate::figures;
 use boresight_validate::table::Tables;
 use boresight_validate::tables::csv_heads;
@@ -70,13 +69,11 @@ impl boresight_validate::experiment::Report for CalibrationReport {
         "angles-radarscenes-dense.svg",
     ];
 
-    fn figures(&self) -> Result<Vec<String>, ValidateError> {
+    fn figures(&self) -> Vec<String> {
         let mut drawn =
-            vec![figures::convergence(&self.conditions)?, figures::states(&self.conditions)?];
-        for condition in &self.conditions {
-            drawn.push(figures::angles(condition)?);
-        }
-        Ok(drawn)
+            vec![figures::convergence(&self.conditions), figures::states(&self.conditions)];
+        drawn.extend(self.conditions.iter().map(figures::angles));
+        drawn
     }
 }
 

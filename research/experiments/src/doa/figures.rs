@@ -4,18 +4,17 @@ use super::report::{BOUNDS, DoaReport, PAIRS};
 use super::trial::DEVIATIONS_DEG;
 use super::{Axis, SNRS_DB, Targets};
 
-use boresight_validate::ValidateError;
-use boresight_validate::plot::{Axes, Panel, Series, draw};
+use boresight_validate::plot::{Panel, Series, draw};
 
 const SNR: &str = "signal-to-noise ratio of a sample / dB";
 
 /// All that there are for what changes.
-pub(super) fn all(report: &DoaReport) -> Result<Vec<String>, ValidateError> {
-    let success = success(report)?;
-    Ok(match report.axis {
-        Axis::Snr => vec![success, counting(report)?, rmse(report)?, deviation(report)?],
+pub(super) fn all(report: &DoaReport) -> Vec<String> {
+    let success = success(report);
+    match report.axis {
+        Axis::Snr => vec![success, counting(report), rmse(report), deviation(report)],
         Axis::PowerDifference => vec![success],
-    })
+    }
 }
 
 /// Methods that are drawn beside the networks; the tables have all.
@@ -42,7 +41,7 @@ fn lines(report: &DoaReport, points: impl Fn(usize) -> Vec<(f64, f64)>) -> Vec<S
 }
 
 /// Figure 6: scenes counted rightly.
-fn counting(report: &DoaReport) -> Result<String, ValidateError> {
+fn counting(report: &DoaReport) -> String {
     let panels = PAIRS.map(|(two, which)| Panel {
         title: format!("0, 1 and 2 targets, the two {which}"),
         y_limits: Some([0.0, 1.02]),
@@ -59,7 +58,7 @@ fn counting(report: &DoaReport) -> Result<String, ValidateError> {
 }
 
 /// Figure 7: error of one target's angle. Where an angle in whole degrees is never wrong there is no point.
-fn rmse(report: &DoaReport) -> Result<String, ValidateError> {
+fn rmse(report: &DoaReport) -> String {
     let methods = lines(report, |k| {
         report.over(Targets::One, k, |m| m.rmse_deg).filter(|(_, rmse)| *rmse > 0.0).collect()
     });
@@ -70,14 +69,14 @@ fn rmse(report: &DoaReport) -> Result<String, ValidateError> {
     });
     let panel = Panel {
         title: "one target".into(),
-        axes: Axes::LogOrdinate,
+        logarithmic: [false, true],
         ..panel(SNR, "root mean square error / deg", methods.into_iter().chain(bounds))
     };
     draw(&[panel], 1)
 }
 
 /// Figure 8: both angles within 1 deg.
-fn success(report: &DoaReport) -> Result<String, ValidateError> {
+fn success(report: &DoaReport) -> String {
     let across = match report.axis {
         Axis::Snr => SNR,
         Axis::PowerDifference => "power of the second target over the first / dB",
@@ -95,7 +94,7 @@ fn success(report: &DoaReport) -> Result<String, ValidateError> {
 }
 
 /// Figure 9: accuracy of rounded angles by allowed deviation, all pairs and close ones.
-fn deviation(report: &DoaReport) -> Result<String, ValidateError> {
+fn deviation(report: &DoaReport) -> String {
     let snr_db = SNRS_DB[2];
     let mut panels = vec![];
     for close in [false, true] {
@@ -118,14 +117,7 @@ fn deviation(report: &DoaReport) -> Result<String, ValidateError> {
 }
 
 fn panel(x: &str, y: &str, series: impl Iterator<Item = Series>) -> Panel {
-    Panel {
-        title: String::new(),
-        x: x.into(),
-        y: y.into(),
-        axes: Axes::Linear,
-        y_limits: None,
-        series: series.collect(),
-    }
+    Panel { x: x.into(), y: y.into(), series: series.collect(), ..Panel::default() }
 }
 
 fn line(name: &str, points: Vec<(f64, f64)>) -> Series {

@@ -3,8 +3,7 @@
 use super::{ImperfectionsExperiment, Kind, NUMBERS, settings};
 use crate::aoa::Score;
 use crate::aoa::cell::AoaRecord;
-use boresight_validate::ValidateError;
-use boresight_validate::plot::{Axes, Panel, Series, draw};
+use boresight_validate::plot::{Panel, Series, draw};
 use boresight_validate::statistics::Summary;
 use boresight_validate::table::{Best, Cell, Table, Tables};
 use serde::Serialize;
@@ -229,7 +228,7 @@ impl boresight_validate::experiment::Report for ImperfectionsReport {
 
     const FIGURES: &'static [&'static str] = &["imperfections.svg"];
 
-    fn figures(&self) -> Result<Vec<String>, ValidateError> {
+    fn figures(&self) -> Vec<String> {
         type Value = fn(&MethodResult) -> f64;
         let rows: [(&str, Value); 2] =
             [("largest F1", |m| m.f1), ("mean error of angle / deg", |m| m.angle_error_deg)];
@@ -241,7 +240,7 @@ impl boresight_validate::experiment::Report for ImperfectionsReport {
                 }
             }
         }
-        Ok(vec![draw(&panels, 2)?])
+        vec![draw(&panels, 2)]
     }
 }
 
@@ -261,12 +260,10 @@ impl ImperfectionsReport {
             marked: true,
         };
         Panel {
-            title: String::new(),
             x: kind.label().into(),
             y: label.into(),
-            axes: Axes::Linear,
-            y_limits: None,
             series: self.methods.iter().enumerate().map(line).collect(),
+            ..Panel::default()
         }
     }
 }

@@ -3,8 +3,7 @@
 use super::trial::{DYNAMIC_RANGE_DB, NearFieldRecord, Plan};
 use super::{NearFieldExperiment, POWERS_DB, RANGES};
 use crate::deviation::Deviation;
-use boresight_validate::ValidateError;
-use boresight_validate::plot::{Axes, Panel, Series, draw};
+use boresight_validate::plot::{Panel, Series, draw};
 use boresight_validate::table::{Best, Cell, Table, Tables, short};
 use serde::Serialize;
 
@@ -126,14 +125,14 @@ fn right_from(conditions: &[ConditionResult], method: usize) -> Option<f64> {
     conditions.iter().rev().take_while(right).last()?.range
 }
 
-/// What is shown of a method, with its name and whether its ordinate is logarithmic.
-type Shown = (&'static str, Axes, Best, fn(&MethodResult) -> f64);
+/// Quantity of a method: label, which axes are logarithmic, better direction and value.
+type Shown = (&'static str, [bool; 2], Best, fn(&MethodResult) -> f64);
 
 const SHOWN: [Shown; 4] = [
-    ("rms error of azimuth / deg", Axes::Logarithmic, Best::None, |m| m.error_deg),
-    ("share of targets found", Axes::LogAbscissa, Best::Largest, |m| m.found),
-    ("false targets a snapshot", Axes::LogAbscissa, Best::Smallest, |m| m.false_targets),
-    ("mean loss of estimated power / dB", Axes::LogAbscissa, Best::None, |m| m.power_loss_db),
+    ("rms error of azimuth / deg", [true; 2], Best::None, |m| m.error_deg),
+    ("share of targets found", [true, false], Best::Largest, |m| m.found),
+    ("false targets a snapshot", [true, false], Best::Smallest, |m| m.false_targets),
+    ("mean loss of estimated power / dB", [true, false], Best::None, |m| m.power_loss_db),
 ];
 
 /// A number of targets in words.
@@ -210,14 +209,14 @@ impl boresight_validate::experiment::Report for NearFieldReport {
 
     const FIGURES: &'static [&'static str] = &["near-field.svg"];
 
-    fn figures(&self) -> Result<Vec<String>, ValidateError> {
+    fn figures(&self) -> Vec<String> {
         let mut panels = vec![];
-        for (label, axes, _, value) in SHOWN {
+        for (label, logarithmic, _, value) in SHOWN {
             for (number, powers) in POWERS_DB.iter().enumerate() {
                 let line = |(k, name): (usize, &String)| {
                     let point = |c: &ConditionResult| {
                         let y = value(&c.methods[k]);
-                        let drawn = y.is_finite() && (y > 0.0 || axes == Axes::LogAbscissa);
+                        let drawn = y.is_finite() && (y > 0.0 || !logarithmic[1]);
                         drawn.then_some((c.range?, y))
                     };
                     let points = self.of_number(number).iter().filter_map(point).collect();
@@ -228,13 +227,13 @@ impl boresight_validate::experiment::Report for NearFieldReport {
                     title: counted(powers.len()),
                     x: "range / Fraunhofer distance".into(),
                     y: label.into(),
-                    axes,
-                    y_limits: None,
+                    logarithmic,
                     series: self.methods.iter().enumerate().map(line).collect(),
+                    ..Panel::default()
                 });
             }
         }
-        Ok(vec![draw(&panels, 2)?])
+        vec![draw(&panels, 2)]
     }
 }
 

@@ -2,11 +2,10 @@
 
 use super::SNRS_DB;
 use super::report::{ResolutionReport, counted};
-use boresight_validate::ValidateError;
-use boresight_validate::plot::{Axes, Panel, Series, draw};
+use boresight_validate::plot::{Panel, Series, draw};
 
 /// A panel a condition: a row a signal-to-noise ratio, a column a number of snapshots.
-pub(super) fn probabilities(report: &ResolutionReport) -> Result<String, ValidateError> {
+pub(super) fn probabilities(report: &ResolutionReport) -> String {
     let rows = SNRS_DB.iter().flat_map(|snr_db| {
         report.conditions.iter().filter(move |condition| condition.snr_db == *snr_db)
     });
@@ -31,9 +30,9 @@ pub(super) fn probabilities(report: &ResolutionReport) -> Result<String, Validat
                 title: format!("{}, {} dB", counted(condition.snapshots), condition.snr_db),
                 x: "separation / beam widths".into(),
                 y: "share resolved".into(),
-                axes: Axes::Linear,
                 y_limits: Some([0.0, 1.02]),
                 series,
+                ..Panel::default()
             }
         })
         .collect();

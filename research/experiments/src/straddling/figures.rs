@@ -2,26 +2,25 @@
 
 use super::GRIDS;
 use super::report::{ConditionResult, GridResult, StraddlingReport};
-use boresight_validate::ValidateError;
-use boresight_validate::plot::{Axes, Panel, Series, draw};
+use boresight_validate::plot::{Panel, Series, draw};
 
 /// What is drawn of a result, if it can be.
 type Value = fn(&GridResult) -> Option<f64>;
 
 /// A row of losses and a row of errors for one target at each signal-to-noise ratio, then weak targets and cost.
 /// What knows no grid is a dashed line across.
-pub(super) fn straddling(report: &StraddlingReport) -> Result<String, ValidateError> {
+pub(super) fn straddling(report: &StraddlingReport) -> String {
     let mut panels = vec![];
-    let rows: [(&str, Value, Axes); 3] = [
-        ("mean straddling loss / dB", |r| positive(r.straddling_db[0]), Axes::Logarithmic),
-        ("mean loss of estimated power / dB", power_loss, Axes::LogAbscissa),
-        ("rms error of azimuth / deg", |r| positive(r.error_deg[0]), Axes::Logarithmic),
+    let rows: [(&str, Value, [bool; 2]); 3] = [
+        ("mean straddling loss / dB", |r| positive(r.straddling_db[0]), [true; 2]),
+        ("mean loss of estimated power / dB", power_loss, [true, false]),
+        ("rms error of azimuth / deg", |r| positive(r.error_deg[0]), [true; 2]),
     ];
     let single = || report.conditions.iter().filter(|c| c.condition.weak_db.is_none());
-    for (label, value, axes) in rows {
+    for (label, value, logarithmic) in rows {
         for condition in single() {
             let title = format!("one target, {} dB", condition.condition.snr_db);
-            panels.push(panel(&title, label, axes, condition, value));
+            panels.push(panel(&title, label, logarithmic, condition, value));
         }
     }
     for condition in &report.conditions {
@@ -29,13 +28,13 @@ pub(super) fn straddling(report: &StraddlingReport) -> Result<String, ValidateEr
             let title = format!("{weak_db} dB beside 0 dB, {} dB", condition.condition.snr_db);
             let found: Value = |r| Some(r.found);
             let label = "share of weak targets found";
-            panels.push(panel(&title, label, Axes::LogAbscissa, condition, found));
+            panels.push(panel(&title, label, [true, false], condition, found));
         }
     }
     if let Some(condition) = report.conditions.first() {
         let cost: Value = |r| r.operations.and_then(positive);
         let label = "operations, by formula";
-        panels.push(panel("cost of a snapshot", label, Axes::Logarithmic, condition, cost));
+        panels.push(panel("cost of a snapshot", label, [true; 2], condition, cost));
     }
     draw(&panels, 2)
 }
@@ -49,7 +48,13 @@ fn positive(x: f64) -> Option<f64> {
     (x > 0.0).then_some(x)
 }
 
-fn panel(title: &str, y: &str, axes: Axes, condition: &ConditionResult, value: Value) -> Panel {
+fn panel(
+    title: &str,
+    y: &str,
+    logarithmic: [bool; 2],
+    condition: &ConditionResult,
+    value: Value,
+) -> Panel {
     let series = condition.methods.iter().map(|method| {
         let points = match &method.results[..] {
             [one] if one.grid.is_none() => {
@@ -66,8 +71,8 @@ fn panel(title: &str, y: &str, axes: Axes, condition: &ConditionResult, value: V
         title: title.into(),
         x: "points of the grid".into(),
         y: y.into(),
-        axes,
-        y_limits: None,
+        logarithmic,
         series: series.collect(),
+        ..Panel::default()
     }
 }
