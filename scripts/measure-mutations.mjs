@@ -33,7 +33,8 @@ async function checkout() {
 /** Runs commands in the clone until one fails. Returns that command and its first error line, or null. */
 async function failure(folder, commands = []) {
   for (const command of commands) {
-    const { ok, text } = await runKeeping(process.execPath, command, { cwd: folder });
+    const [program, ...args] = command;
+    const { ok, text } = await runKeeping(program, args, { cwd: folder });
     if (ok) continue;
     const first = /^.*(?:✖|panicked at|^error\b).*$/m.exec(text)?.[0] ?? text.trimEnd().split('\n').at(-1);
     return `${command.join(' ')}: ${first.trim()}`;

@@ -1,18 +1,28 @@
-// Runs the tests of all crates of the product: what Cargo makes of them, as many programs at a time as there are cores, since many end with
-// one long test, and then the examples of the documentation. Arguments choose other packages: `-p boresight-experiments`.
+// Runs the tests of all crates of the product, as many programs at a time as there are cores, since many end with one long
+// test, and then the examples of the documentation. `--only crates/aoa,crates/fleet` runs the programs of some folders.
+// The whole workspace is compiled for them: a selection by `-p` has other features of dependencies, which Cargo then
+// compiles again.
 import { availableParallelism } from 'node:os';
 import { delimiter, dirname, relative } from 'node:path';
+import { parseArgs } from 'node:util';
 import { environment, root } from './lib/paths.mjs';
 import { main, output, run, runKeeping } from './lib/run.mjs';
 
 /** Where tests of macros, which are part of the compiler, look for its libraries. */
 const libraryPath = { win32: 'PATH', darwin: 'DYLD_FALLBACK_LIBRARY_PATH' }[process.platform] ?? 'LD_LIBRARY_PATH';
 
-const packages = process.argv.slice(2);
+const { values } = parseArgs({ options: { only: { type: 'string' } } });
+const only = values.only?.split(',');
 
 /** Test programs: path, folder of their package, and what to call them. */
 async function programs() {
-  const build = ['test', ...packages, '--no-run', '--quiet', '--message-format=json-render-diagnostics'];
+  const build = [
+    'test',
+    ...(only ? ['--workspace'] : []),
+    '--no-run',
+    '--quiet',
+    '--message-format=json-render-diagnostics',
+  ];
   const { ok, text } = await runKeeping('cargo', build, { stdio: ['ignore', 'pipe', 'inherit'] });
   if (!ok) throw new Error('the tests do not compile');
   return text
@@ -24,11 +34,13 @@ async function programs() {
       executable,
       folder: dirname(manifest_path),
       name: `${relative(root, dirname(manifest_path))}: ${target.name}`,
-    }));
+    }))
+    .filter(({ folder }) => !only || only.includes(relative(root, folder).replaceAll('\\', '/')));
 }
 
 await main(async () => {
   const waiting = await programs();
+  if (waiting.length === 0) throw new Error(`no test program in ${values.only}`);
   const libraries = output('rustc', ['--print', 'target-libdir'])?.trim();
   const paths = [libraries, environment[libraryPath]].filter(Boolean).join(delimiter);
   const failed = [];
@@ -43,7 +55,9 @@ await main(async () => {
     }
   };
   await Promise.all(Array.from({ length: availableParallelism() }, worker));
-  const examples = run('cargo', ['test', ...packages, '--doc', '--no-fail-fast', '--quiet']);
-  await examples.catch(() => failed.push('examples of the documentation'));
+  if (!only) {
+    const examples = run('cargo', ['test', '--doc', '--no-fail-fast', '--quiet']);
+    await examples.catch(() => failed.push('examples of the documentation'));
+  }
   if (failed.length > 0) throw new Error(`failed: ${failed.join(', ')}`);
 });

@@ -83,7 +83,8 @@ const fullRustTests = {
   command: [
     node,
     'scripts/test-rust.mjs',
-    ...['aoa', 'fleet', 'formats', 'mounting', 'neural'].flatMap((name) => ['-p', `boresight-${name}`]),
+    '--only',
+    ['aoa', 'fleet', 'formats', 'mounting', 'neural'].map((name) => `crates/${name}`).join(),
   ],
   variables: { BORESIGHT_FULL: '1' },
   counts: cargoCounts,

@@ -4,12 +4,9 @@ import { join } from 'node:path';
 import { root } from '../../scripts/lib/paths.mjs';
 import { main, run } from '../../scripts/lib/run.mjs';
 
-const crate = ['-p', 'boresight-experiments'];
-
 await main(async () => {
   const files = readdirSync(join(root, 'research', 'tests')).filter((name) => name.endsWith('.test.mjs'));
-  await run('cargo', ['clippy', '--quiet', ...crate, '--all-targets', '--', '-D', 'warnings']);
-  await run(process.execPath, ['scripts/test-rust.mjs', ...crate]);
+  await run(process.execPath, ['scripts/test-rust.mjs', '--only', 'research/experiments']);
   await run(process.execPath, ['--test', ...files.map((name) => join('research', 'tests', name))]);
   await run(process.execPath, ['research/scripts/tables-of-networks.mjs', '--check']);
 });

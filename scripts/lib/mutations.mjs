@@ -1,5 +1,5 @@
-const rust = (name) => ['scripts/test-rust.mjs', '-p', `boresight-${name}`];
-const steps = (names) => ['scripts/test.mjs', '--only', names];
+const rust = (name) => ['cargo', 'test', '--quiet', '-p', `boresight-${name}`];
+const steps = (names) => ['node', 'scripts/test.mjs', '--only', names];
 
 /**
  * Mistakes that the tests have to detect. In `file`, `from` is replaced by `to`; then one of the commands has to fail.
@@ -47,7 +47,7 @@ export const MUTATIONS = [
     from: '60, 90],\n  descending: true,',
     to: '60, 90],',
     test: [steps('build,build-demo'), steps('flows')],
-    all: [['--test', 'tests/browser/site/sides.test.mjs']],
+    all: [['node', '--test', 'tests/browser/site/sides.test.mjs']],
   },
   {
     name: 'error code',
