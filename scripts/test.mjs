@@ -6,6 +6,7 @@ import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import {
   buildDemo,
+  buildForTests,
   buildPackage,
   buildReference,
   cargoArguments,
@@ -101,8 +102,7 @@ const fullNodeTests = {
 /** `npm test`: what a change of code needs. */
 const test = [
   rustTests,
-  build,
-  { name: 'build-demo', work: buildDemo, counts: checkCounts },
+  { name: 'build-quick', work: buildForTests, counts: checkCounts },
   wasmTests,
   { name: 'node', command: () => nodeTests('tests/node'), counts: nodeCounts },
   { name: 'flows', command: () => nodeTests('tests/browser/flows', '--test-concurrency=2'), counts: nodeCounts },
@@ -152,6 +152,7 @@ const rest = [
   fullNodeTests,
   wasmNeuralTests,
   { name: 'build-reference', work: buildReference, counts: checkCounts },
+  { name: 'build-demo', work: buildDemo, counts: checkCounts },
   { name: 'packaging', command: () => nodeTests('tests/packaging', '--test-concurrency=1'), counts: nodeCounts },
   { name: 'browser', command: browserTests, counts: nodeCounts },
   npm('test:research'),

@@ -18,7 +18,7 @@ export const MUTATIONS = [
     file: 'crates/wasm/src/trajectory.rs',
     from: 'trajectory::integrate(&motions, angle_deg.to_radians(), x_m, y_m)',
     to: 'trajectory::integrate(&motions, angle_deg, x_m, y_m)',
-    test: [steps('build'), steps('node')],
+    test: [steps('build-quick'), steps('node')],
   },
   {
     name: 'off by one in CFAR',
@@ -46,7 +46,7 @@ export const MUTATIONS = [
     file: 'web/plots/axes.ts',
     from: '60, 90],\n  descending: true,',
     to: '60, 90],',
-    test: [steps('build,build-demo'), steps('flows')],
+    test: [steps('build-quick'), steps('flows')],
     all: [['node', '--test', 'tests/browser/site/sides.test.mjs']],
   },
   {
@@ -75,7 +75,7 @@ export const MUTATIONS = [
     file: 'web/worker/pool.ts',
     from: 'const onAbort = (): void => job.reject(signal?.reason);',
     to: 'const onAbort = (): void => {};',
-    test: [steps('build'), steps('node')],
+    test: [steps('build-quick'), steps('node')],
   },
 ];
 
