@@ -3,15 +3,14 @@
 use crate::method::Method;
 use boresight_core::{Complex64, Direction, Remark};
 use boresight_options::remark::Coded;
-use boresight_options::{Described, columns, decibels, remark};
+use boresight_options::{Described, Flat, columns, decibels, remark};
 use serde::{Deserialize, Serialize};
 
 /// One source found.
 #[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
 pub struct Source {
     /// Where it is.
-    #[serde(rename = "..direction")]
-    pub direction: Direction,
+    pub direction: Flat<Direction>,
     /// Its power at one element.
     #[serde(rename = "power_db", serialize_with = "decibels::serialize")]
     pub power: f64,
@@ -33,7 +32,13 @@ pub struct Source {
 impl Source {
     /// A source of which no more is known.
     pub fn new(direction: Direction, power: f64) -> Self {
-        Self { direction, power, amplitude: None, confidence: None, deviation: None }
+        Self {
+            direction: direction.into(),
+            power,
+            amplitude: None,
+            confidence: None,
+            deviation: None,
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! What calibration gives.
 
 use boresight_core::{ArrayCalibration, Direction, Remark};
-use boresight_options::{Described, decibels};
+use boresight_options::{Described, Flat, decibels};
 use serde::Serialize;
 
 /// Cells of data not used, as the plan has them and once calibrated.
@@ -85,8 +85,7 @@ pub struct UsedCell {
     #[serde(rename = "snr_db", serialize_with = "decibels::serialize")]
     pub snr: f64,
     /// Where its target is: as given, or as found with the calibration.
-    #[serde(rename = "..direction")]
-    pub direction: Direction,
+    pub direction: Flat<Direction>,
     /// Power left once one plane wave is fitted, over that of the cell.
     #[serde(rename = "residual_db", serialize_with = "decibels::serialize")]
     pub residual: f64,

@@ -345,7 +345,7 @@ fn used(
                 range_bin: cell.range_bin,
                 doppler_bin: cell.doppler_bin,
                 snr: cell.snr,
-                direction,
+                direction: direction.into(),
                 residual,
                 state: states[index],
             }

@@ -34,7 +34,7 @@ impl Board {
     /// A snapshot of targets, noise 20 dB below a target of 0 dB at one element.
     fn seen(&self, targets: &[(Direction, f64)], seed: u64) -> Array2<Complex64> {
         let target = |&(direction, power_db): &(Direction, f64)| Target {
-            direction,
+            direction: direction.into(),
             power_db,
             ..Target::default()
         };
@@ -45,7 +45,7 @@ impl Board {
     fn error(&self, array: &Array, direction: Direction, seed: u64) -> f64 {
         let mut seen = self.seen(&[(direction, 0.0)], seed);
         array.correct(seen.view_mut()).unwrap();
-        let target = BoundTarget { direction, snr_db: SNR_DB, phase_rad: 0.0 };
+        let target = BoundTarget { direction: direction.into(), snr_db: SNR_DB, phase_rad: 0.0 };
         let bound = target_bound(&self.plan, &[target], &BoundRequest::default()).unwrap();
         (azimuth(array, &seen) - direction.azimuth_rad) / bound.azimuth_rad[0]
     }
@@ -231,7 +231,7 @@ fn two_targets_are_where_they_are_once_a_board_has_calibrated_itself() {
         for draw in 0..20 {
             let first = random.uniform(-40.0, 10.0);
             let target = |azimuth_deg: f64, phase_rad: f64| BoundTarget {
-                direction: Direction::azimuth(azimuth_deg.to_radians()),
+                direction: Direction::azimuth(azimuth_deg.to_radians()).into(),
                 snr_db: SNR_DB,
                 phase_rad,
             };

@@ -53,8 +53,8 @@ impl<T> Flags<T> {
 /// One flag and the field it sets.
 pub struct Flag<'a> {
     prefix: &'static str,
-    /// Names in Rust of the fields that lead to it.
-    path: Vec<&'static str>,
+    /// Path of fields; the last is the field itself.
+    path: Vec<&'static Field>,
     /// The field.
     pub field: &'static Field,
     default: Option<&'a Value>,
@@ -63,18 +63,22 @@ pub struct Flag<'a> {
 impl Flag<'_> {
     /// Its name without the dashes, and whether giving it says no to what is true by default.
     pub fn name(&self) -> (String, bool) {
-        let own =
-            self.path.iter().filter(|name| !name.starts_with("..")).map(|name| naming::flag(name));
+        let own = self.named().map(naming::flag);
         let prefix = (!self.prefix.is_empty()).then(|| self.prefix.to_owned());
         let name = prefix.into_iter().chain(own).collect::<Vec<_>>().join("-");
         let says_no = self.default == Some(&Value::Bool(true));
         (if says_no { format!("no-{name}") } else { name }, says_no)
     }
 
+    /// Returns the names in Rust of the fields in the path that are not flat.
+    fn named(&self) -> impl Iterator<Item = &'static str> {
+        self.path.iter().filter(|field| !field.flat).map(|field| field.name)
+    }
+
     /// Whether it stands directly in the options, under one of these names.
     fn is_one_of(&self, names: &[&str]) -> bool {
-        let mut own = self.path.iter().filter(|name| !name.starts_with(".."));
-        own.next().is_some_and(|name| names.contains(name)) && own.next().is_none()
+        let mut own = self.named();
+        own.next().is_some_and(|name| names.contains(&name)) && own.next().is_none()
     }
 
     fn arg(&self, heading: &'static str) -> Arg {
@@ -221,8 +225,8 @@ fn text(field: &Field, value: &Value) -> Option<String> {
 #[derive(Clone, Default)]
 struct Place {
     prefix: &'static str,
-    /// Names in Rust of the fields that lead to it.
-    above: Vec<&'static str>,
+    /// Path of fields to the record.
+    above: Vec<&'static Field>,
     elsewhere: &'static [&'static str],
 }
 
@@ -230,7 +234,7 @@ struct Place {
 fn flags<'a>(record: &'static Record, defaults: Option<&'a Value>, place: &Place) -> Vec<Flag<'a>> {
     let mut all = vec![];
     for field in record.fields.iter().filter(|field| !place.elsewhere.contains(&field.name)) {
-        let path = [&place.above[..], &[field.name]].concat();
+        let path = [&place.above[..], &[field]].concat();
         let default = defaults.and_then(|defaults| defaults.get(field.name));
         let kind = match field.kind {
             // Any of an optional record's flags gives it, with the others at their defaults.
@@ -289,7 +293,7 @@ impl<T: OnCommandLine> FromArgMatches for Flags<T> {
             if let Some(value) = flag.value(matches)? {
                 set(&mut values, &flag.path, value);
                 if let [own] = flag.path[..] {
-                    given.push(own);
+                    given.push(own.name);
                 }
             }
         }
@@ -306,15 +310,15 @@ impl<T: OnCommandLine> FromArgMatches for Flags<T> {
     }
 }
 
-fn set(values: &mut Value, path: &[&'static str], value: Value) {
+fn set(values: &mut Value, path: &[&Field], value: Value) {
     match path {
         [] => *values = value,
-        [name, rest @ ..] => {
+        [field, rest @ ..] => {
             if !values.is_object() {
                 *values = Value::Object(Map::new());
             }
             if let Value::Object(fields) = values {
-                set(fields.entry(*name).or_insert(Value::Null), rest, value);
+                set(fields.entry(field.name).or_insert(Value::Null), rest, value);
             }
         }
     }
@@ -359,14 +363,13 @@ mod tests {
                 let differing = differing_fields(&T::default(), &changed);
                 // One of the names of a choice is the default.
                 if !differing.is_empty() {
-                    let path: Vec<&str> =
-                        flag.path.iter().map(|name| name.trim_start_matches("..")).collect();
+                    let path: Vec<&str> = flag.path.iter().map(|field| field.name).collect();
                     let own = path.join(".");
                     // A flag of a record that is absent by default adds the record.
-                    let above = &flag.path[..flag.path.len() - 1];
+                    let above = &path[..path.len() - 1];
                     let added = above.iter().try_fold(&defaults, |value, name| value.get(*name));
                     let is_added = !above.is_empty() && added.is_none_or(Value::is_null);
-                    let record = path[..path.len() - 1].join(".");
+                    let record = above.join(".");
                     let is_its_own =
                         |field: &String| lies_in(field, &own) || (is_added && *field == record);
                     assert!(differing.iter().all(is_its_own), "{line:?}: {differing:?}");

@@ -7,7 +7,7 @@ use boresight_math::decibels::db_to_amplitude;
 use boresight_math::error::{InputError, check_finite, check_range};
 use boresight_math::phasor::cis;
 use boresight_math::random::Random;
-use boresight_options::Described;
+use boresight_options::{Described, Flat};
 use ndarray::{Array1, Array2};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
@@ -51,8 +51,7 @@ pub struct ImperfectionSpread {
 #[serde(default)]
 pub struct ImperfectionOptions {
     /// How large they are.
-    #[serde(rename = "..spread")]
-    pub spread: ImperfectionSpread,
+    pub spread: Flat<ImperfectionSpread>,
     /// Seed they are drawn from; that of the simulation if absent.
     pub seed: Option<u64>,
 }
@@ -63,10 +62,10 @@ impl ImperfectionOptions {
     /// # Errors
     /// As [`Imperfections::random`].
     pub fn draw(&self, array: &Array, seed: u64) -> Result<Option<Imperfections>, InputError> {
-        if self.spread == ImperfectionSpread::default() {
+        if *self.spread == ImperfectionSpread::default() {
             return Ok(None);
         }
-        Imperfections::random(array, self.spread, self.seed.unwrap_or(seed)).map(Some)
+        Imperfections::random(array, *self.spread, self.seed.unwrap_or(seed)).map(Some)
     }
 }
 

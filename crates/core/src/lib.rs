@@ -39,7 +39,7 @@ pub mod units;
 pub mod waveform;
 
 pub use boresight_math::{Details, Diagnose, InputError, Random};
-pub use boresight_options::Remark;
+pub use boresight_options::{Flat, Remark};
 
 pub use array::{Array, Channel, Extent};
 pub use calibration::{ArrayCalibration, CalibrationMethod, ChannelCalibration, NotIdentifiable};

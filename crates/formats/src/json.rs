@@ -7,12 +7,12 @@ use serde::de::{DeserializeOwned, Error};
 use serde_json::{Map, Value};
 
 /// A result in the names and units of users; what is not finite becomes null.
-pub fn result(value: &impl Serialize) -> Value {
-    serde_json::to_value(value).map_or(Value::Null, |value| outside(value, false))
+pub fn result<T: Serialize + Described>(value: &T) -> Value {
+    serde_json::to_value(value).map_or(Value::Null, |value| outside(value, Some(&T::KIND), false))
 }
 
 /// The fields of a result with further ones beside them.
-pub fn beside(value: &impl Serialize, further: Value) -> Value {
+pub fn beside(value: &(impl Serialize + Described), further: Value) -> Value {
     match (result(value), further) {
         (Value::Object(mut own), Value::Object(further)) => {
             own.extend(further);
@@ -22,18 +22,25 @@ pub fn beside(value: &impl Serialize, further: Value) -> Value {
     }
 }
 
-fn outside(value: Value, in_radians: bool) -> Value {
+/// Converts a value to the names and units of users. Without a kind no fields are flattened.
+fn outside(value: Value, kind: Option<&Kind>, in_radians: bool) -> Value {
     match value {
         Value::Number(number) if in_radians => {
             number.as_f64().map_or(Value::Null, |radians| radians.to_degrees().into())
         }
-        Value::Array(items) => items.into_iter().map(|item| outside(item, in_radians)).collect(),
+        Value::Array(items) => {
+            let kind = kind.and_then(Kind::item);
+            items.into_iter().map(|item| outside(item, kind, in_radians)).collect()
+        }
         Value::Object(fields) => {
+            let described = kind.and_then(Kind::record).map_or(&[][..], |record| record.fields);
             let mut renamed = Map::new();
             for (name, value) in fields {
-                match outside(value, is_angle(&name)) {
-                    // The fields of a field so named stand in its place.
-                    Value::Object(inner) if name.starts_with("..") => renamed.extend(inner),
+                let field = described.iter().find(|field| field.name == name);
+                match outside(value, field.map(|field| &field.kind), is_angle(&name)) {
+                    Value::Object(inner) if field.is_some_and(|field| field.flat) => {
+                        renamed.extend(inner);
+                    }
                     value => {
                         renamed.insert(javascript(&name), value);
                     }
@@ -91,7 +98,7 @@ fn taken(
 ) -> Result<Map<String, Value>, serde_json::Error> {
     let mut known = Map::new();
     for field in record.fields {
-        if let (true, Kind::Record(inner)) = (field.name.starts_with(".."), field.kind) {
+        if let (true, Kind::Record(inner)) = (field.flat, field.kind) {
             known.insert(field.name.into(), Value::Object(taken(from, inner)?));
         } else if let Some(value) = from.remove(&javascript(field.name)) {
             known.insert(field.name.into(), inside(value, &field.kind, is_angle(field.name))?);
@@ -104,21 +111,26 @@ fn taken(
 mod tests {
     use super::*;
     use boresight_core::{ArrayCalibration, Direction, Mounting, NotIdentifiable};
+    use boresight_options::Flat;
     use serde_json::json;
 
-    #[derive(Serialize)]
+    /// What was seen.
+    #[derive(Described, Serialize)]
     struct Seen {
-        #[serde(rename = "..direction")]
-        direction: Direction,
+        /// Where.
+        direction: Flat<Direction>,
+        /// How far.
         range_m: f64,
+        /// By which radar.
         mounting: Option<Mounting>,
+        /// Not finite.
         unknown_rad: f64,
     }
 
     #[test]
     fn names_units_and_places_are_those_of_javascript() {
         let seen = Seen {
-            direction: Direction::azimuth(std::f64::consts::FRAC_PI_2),
+            direction: Direction::azimuth(std::f64::consts::FRAC_PI_2).into(),
             range_m: 4.0,
             mounting: None,
             unknown_rad: f64::INFINITY,

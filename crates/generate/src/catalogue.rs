@@ -180,18 +180,18 @@ fn plain(name: &'static str, title: &'static str, kind: Kind) -> Entry {
     Entry { name, title, record, defaults: Value::Null }
 }
 
-/// A field as users see it, where those of spread fields stand among the others.
+/// A field as users see it. Flat fields are replaced by their own fields.
 pub struct Shown<'a> {
     pub field: &'static Field,
     pub default: Option<&'a Value>,
 }
 
-/// The fields of a record with their defaults, those of spread fields in their place.
+/// Returns the fields of a record with their defaults, flat fields replaced by their own.
 pub fn shown<'a>(record: &'static Record, defaults: Option<&'a Value>) -> Vec<Shown<'a>> {
     let mut all = vec![];
     for field in record.fields {
         let default = defaults.and_then(|defaults| defaults.get(field.name));
-        match (field.name.starts_with(".."), field.kind) {
+        match (field.flat, field.kind) {
             (true, Kind::Record(inner)) => all.extend(shown(inner, default)),
             _ => all.push(Shown { field, default }),
         }

@@ -4,10 +4,11 @@ use crate::error::ImageError;
 use crate::gate::{self, Gate, Gates};
 use crate::sidelobes::{Lit, share};
 use crate::view::{BirdsEyeView, NO_RADAR};
+use boresight_options::Described;
 use serde::{Deserialize, Serialize};
 
 /// How much of a view is where the radar that shows it cannot see, behind a wall, say.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct HiddenMeasure {
     /// Energy (the sum of powers) of the hidden cells over all energy.

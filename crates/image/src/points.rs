@@ -6,6 +6,7 @@ use crate::sidelobes::share;
 use crate::splat::Target;
 use boresight_core::drive::Mounting;
 use boresight_math::order::sort_descending;
+use boresight_options::Described;
 use serde::{Deserialize, Serialize};
 
 /// Points that one radar found.
@@ -18,7 +19,7 @@ pub struct RadarPoints {
 }
 
 /// How right points are.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct PointMeasure {
     /// Points in all.
@@ -39,7 +40,7 @@ pub struct PointMeasure {
 }
 
 /// Among the strongest points that find half of the targets.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct PointsAtHalf {
     /// These points.

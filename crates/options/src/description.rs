@@ -19,6 +19,9 @@ pub trait Described {
     /// What a list of them looks like.
     const LIST: Kind = Kind::List(&Self::KIND);
 
+    /// Whether a field of this type is flattened outside Rust; only of [`Flat`](crate::Flat).
+    const FLAT: bool = false;
+
     /// Checks the value and what it holds against the ranges of their descriptions; `range` is that
     /// of the field it stands in, `at` its place in errors.
     ///
@@ -60,6 +63,26 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// Returns the record of a struct, or of an optional one.
+    #[must_use]
+    pub const fn record(&self) -> Option<&'static Record> {
+        match self {
+            Self::Record(record) => Some(record),
+            Self::Optional(kind) => kind.record(),
+            _ => None,
+        }
+    }
+
+    /// Returns the kind of the items of a list, or of an optional one.
+    #[must_use]
+    pub const fn item(&self) -> Option<&'static Self> {
+        match self {
+            Self::List(kind) | Self::Tuple(kind, _) => Some(kind),
+            Self::Optional(kind) => kind.item(),
+            _ => None,
+        }
+    }
+
     /// What is accepted, in words.
     #[must_use]
     pub fn expected(&self) -> String {
@@ -121,13 +144,15 @@ pub struct Record {
 /// A field of a struct.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Field {
-    /// Its name as serde has it, in Rust's writing; beginning with `..` where the fields of its value
-    /// stand in its place.
+    /// Its name as serde has it, in Rust's writing.
     pub name: &'static str,
     /// What it is.
     pub doc: &'static str,
     /// What its values are.
     pub kind: Kind,
+    /// Whether its type is [`Flat`](crate::Flat): outside Rust the fields of its value are among those
+    /// of the record.
+    pub flat: bool,
     /// The numbers it may have; of angles in degrees.
     pub range: Option<Range>,
     /// Whether a result may come without it.

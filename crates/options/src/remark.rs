@@ -1,6 +1,7 @@
 //! What a reader of a result should know: a stable name for programs, and a sentence.
 
 use crate::description::Described;
+use crate::flat::Flat;
 use serde::{Serialize, Serializer};
 use std::fmt::Display;
 
@@ -32,12 +33,15 @@ pub trait Coded: Display {
     }
 }
 
-/// Serializes it as its remark.
+/// Serializes a value as its remark, which is [`Flat`].
 ///
 /// # Errors
 /// Those of the serializer.
-pub fn serialize_one<T: Coded, S: Serializer>(coded: &T, serializer: S) -> Result<S::Ok, S::Error> {
-    coded.remark().serialize(serializer)
+pub fn serialize_flat<T: Coded, S: Serializer>(
+    coded: &T,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    Flat(coded.remark()).serialize(serializer)
 }
 
 /// Serializes a list as remarks.

@@ -312,7 +312,7 @@ impl Chain {
         for (index, cell) in cells.iter().enumerate() {
             let sources = estimates.sources_of(index);
             counts.without_angle += usize::from(sources.is_empty());
-            detections.extend(sources.iter().map(|s| detection(cell, s.direction, s.power)));
+            detections.extend(sources.iter().map(|s| detection(cell, *s.direction, s.power)));
         }
         counts.outside_region += Region::retain(&mut detections, |d| {
             let direction = Direction::new(d.azimuth_rad, d.elevation_rad);

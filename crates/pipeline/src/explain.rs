@@ -220,7 +220,7 @@ impl Chain {
         let sources = estimates.sources_of(0);
         Ok(if sources.is_empty() {
             Verdict::WithoutAngle
-        } else if sources.iter().any(|s| self.region.contains_direction(range_m, s.direction)) {
+        } else if sources.iter().any(|s| self.region.contains_direction(range_m, *s.direction)) {
             Verdict::Kept
         } else {
             Verdict::OutsideDirection

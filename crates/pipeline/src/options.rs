@@ -3,7 +3,7 @@
 use crate::error::PipelineError;
 use boresight_aoa::{EstimatorOptions, Method};
 use boresight_core::Waveform;
-use boresight_options::{Described, Naming, check};
+use boresight_options::{Described, Flat, Naming, check};
 use boresight_signal::{CfarOptions, RangeDopplerOptions, Region};
 use serde::{Deserialize, Serialize};
 
@@ -31,8 +31,7 @@ pub struct AngleOptions {
     /// Its options. For the conventional beamformer and Capon's the dynamic range is at most that
     /// between main lobe and sidelobes of the array less 6 dB; Capon's is loaded by 0.1 of the
     /// mean element power where no loading is asked for.
-    #[serde(rename = "..options")]
-    pub options: EstimatorOptions,
+    pub options: Flat<EstimatorOptions>,
 }
 
 /// How frames become detections.
@@ -40,8 +39,7 @@ pub struct AngleOptions {
 #[serde(default)]
 pub struct ChainOptions {
     /// Windows, padding and clutter removal of the transforms.
-    #[serde(rename = "..range_doppler")]
-    pub range_doppler: RangeDopplerOptions,
+    pub range_doppler: Flat<RangeDopplerOptions>,
     /// Detection. Guard and training cells are counted in cells of unpadded transforms.
     pub cfar: CfarOptions,
     /// Keep one detection a peak: of adjacent cells over the threshold, the strongest.
@@ -73,7 +71,7 @@ impl ChainOptions {
     /// [`boresight_core::InputError::OutOfRange`] naming the option.
     pub fn check(&self) -> Result<(), PipelineError> {
         self.region.check()?;
-        self.angle.options.check()?;
+        self.angle.options.0.check()?;
         Ok(check(self, Naming::Rust)?)
     }
 }

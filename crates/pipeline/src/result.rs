@@ -2,7 +2,7 @@
 
 use boresight_core::{Complex64, Remark};
 use boresight_options::shaped::ComplexArray;
-use boresight_options::{Described, columns, decibels};
+use boresight_options::{Described, Flat, columns, decibels};
 use ndarray::{Array2, Array3};
 use serde::{Serialize, Serializer};
 
@@ -68,8 +68,8 @@ pub struct DetectedCell {
 #[derive(Debug, Clone, PartialEq, Described, Serialize)]
 pub struct FrameCells {
     /// The cells, strongest first.
-    #[option(described_as = CellColumns)]
-    #[serde(rename = "..cells", serialize_with = "as_columns")]
+    #[option(described_as = Flat<CellColumns>)]
+    #[serde(serialize_with = "as_columns")]
     pub cells: Vec<DetectedCell>,
     /// Cells x elements (x frames where there are several), the transmitters' Doppler phase taken off.
     #[option(described_as = ComplexArray)]
@@ -175,8 +175,8 @@ pub struct FrameResult {
     #[serde(serialize_with = "columns::serialize")]
     pub range_profile_db: Vec<f64>,
     /// Power over range and Doppler: mean over channels.
-    #[option(described_as = RangeDopplerMap<'static>)]
-    #[serde(rename = "..range_doppler_db", serialize_with = "with_shape")]
+    #[option(described_as = Flat<RangeDopplerMap<'static>>)]
+    #[serde(serialize_with = "with_shape")]
     pub range_doppler_db: Array2<f32>,
     /// Detections, strongest first.
     pub detections: Vec<Detection>,
@@ -199,7 +199,7 @@ struct RangeDopplerMap<'a> {
 }
 
 fn with_shape<S: Serializer>(map: &Array2<f32>, serializer: S) -> Result<S::Ok, S::Error> {
-    RangeDopplerMap { range_doppler_db: map, shape: map.dim().into() }.serialize(serializer)
+    Flat(RangeDopplerMap { range_doppler_db: map, shape: map.dim().into() }).serialize(serializer)
 }
 
 /// Cells as columns.
@@ -241,7 +241,7 @@ fn as_columns<S: Serializer>(cells: &[DetectedCell], serializer: S) -> Result<S:
         range_bin: bins(|cell| cell.range_bin),
         doppler_bin: bins(|cell| cell.doppler_bin),
     };
-    columns.serialize(serializer)
+    Flat(columns).serialize(serializer)
 }
 
 /// Snapshots of one frame lose the axis of frames.

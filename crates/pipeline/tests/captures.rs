@@ -52,7 +52,7 @@ fn over_bound(layout: Layout, sampling: Sampling, frames: usize) -> f64 {
     // In the middle of its bin, so that nothing is lost.
     let range_m = 20.0 * waveform.range_resolution_m();
     let direction = Direction::azimuth(0.2);
-    let target = CubeTarget { range_m, direction, ..CubeTarget::default() };
+    let target = CubeTarget { range_m, direction: direction.into(), ..CubeTarget::default() };
     let cube = CubeOptions { snr_db, frames, seed: 7, ..CubeOptions::default() };
     let cube = quiet(simulate_cube(&waveform, &array, &[target], &cube).unwrap());
     let bytes = write(cube.view(), &config).unwrap();
@@ -68,7 +68,7 @@ fn over_bound(layout: Layout, sampling: Sampling, frames: usize) -> f64 {
         assert_eq!(nearest.range_bin, 20, "{nearest:?}");
         squares += (nearest.azimuth_rad - direction.azimuth_rad).powi(2);
     }
-    let told = BoundTarget { direction, snr_db: cell_snr_db, phase_rad: 0.0 };
+    let told = BoundTarget { direction: direction.into(), snr_db: cell_snr_db, phase_rad: 0.0 };
     let bound = target_bound(&array, &[told], &BoundRequest::default()).unwrap().azimuth_rad[0];
     (squares / frames as f64).sqrt() / bound
 }
@@ -145,7 +145,7 @@ fn a_target_of_real_samples_is_where_that_of_complex_ones_is() {
     let target = CubeTarget {
         range_m: 5.0,
         rate_mps: 1.2,
-        direction: Direction::azimuth(-0.3),
+        direction: Direction::azimuth(-0.3).into(),
         phase_rad: Some(0.4),
         ..CubeTarget::default()
     };
@@ -187,7 +187,7 @@ fn scene(random: &mut Random, waveform: &Waveform, coupled: bool) -> Vec<CubeTar
         CubeTarget {
             range_m,
             rate_mps: random.uniform(-3.0, 3.0),
-            direction: Direction::azimuth(random.uniform(-0.8, 0.8)),
+            direction: Direction::azimuth(random.uniform(-0.8, 0.8)).into(),
             power_db: -10.0 - 40.0 * range_m.log10() + 8.0 * random.normal(),
             phase_rad: None,
         }

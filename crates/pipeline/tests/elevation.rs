@@ -46,7 +46,8 @@ fn targets(waveform: &Waveform, random: &mut Random) -> Vec<CubeTarget> {
         .map(|&range_m| CubeTarget {
             range_m,
             rate_mps: random.uniform(-6.0, 7.0).floor() * waveform.rate_resolution_mps(),
-            direction: Direction::new(random.uniform(-0.6, 0.6), random.uniform(-0.35, 0.35)),
+            direction: Direction::new(random.uniform(-0.6, 0.6), random.uniform(-0.35, 0.35))
+                .into(),
             power_db: POWER_DB,
             phase_rad: None,
         })
@@ -114,7 +115,7 @@ fn scores(platform: &str, start_ghz: &str, methods: &[Method]) -> Vec<[f64; 2]> 
                 let power = snapshot.iter().map(|z| z.norm_sqr()).sum::<f64>() / 12.0;
                 let covariance = single_snapshot(&[Complex64::from(power.sqrt())]);
                 let signals = Signals { covariance: covariance.view(), noise_power, snapshots: 1 };
-                let bound = deterministic_bound(&array, &[target.direction], &signals).unwrap();
+                let bound = deterministic_bound(&array, &[*target.direction], &signals).unwrap();
                 [bound.azimuth_rad[0], bound.elevation_rad.unwrap()[0]]
             })
             .collect();
@@ -213,7 +214,7 @@ fn music_over_frames_reaches_the_bound_of_all() {
             let covariance = single_snapshot(&[Complex64::from(power.sqrt())]);
             let signals =
                 Signals { covariance: covariance.view(), noise_power, snapshots: FRAMES_TOGETHER };
-            let bound = deterministic_bound(&array, &[target.direction], &signals).unwrap();
+            let bound = deterministic_bound(&array, &[*target.direction], &signals).unwrap();
             let found = nearest(&result.detections, target).unwrap();
             let azimuth = found.azimuth_rad - target.direction.azimuth_rad;
             let elevation = found.elevation_rad - target.direction.elevation_rad;
@@ -235,7 +236,7 @@ fn turned_antennas_are_undone() {
     let array = config.array().unwrap();
     let target = CubeTarget {
         range_m: 5.0,
-        direction: Direction::new(0.3, 0.2),
+        direction: Direction::new(0.3, 0.2).into(),
         power_db: POWER_DB,
         ..CubeTarget::default()
     };
@@ -276,7 +277,7 @@ fn detections_outside_elevation_and_height_are_dropped_and_counted() {
     let array = config.array().unwrap();
     let target = |range_m, elevation_rad| CubeTarget {
         range_m,
-        direction: Direction::new(0.1, elevation_rad),
+        direction: Direction::new(0.1, elevation_rad).into(),
         power_db: POWER_DB,
         ..CubeTarget::default()
     };

@@ -14,7 +14,7 @@ fn target(range_m: f64, azimuth_deg: f64, power_db: f64) -> CubeTarget {
     CubeTarget {
         range_m,
         rate_mps: 0.0,
-        direction: Direction::azimuth(azimuth_deg.to_radians()),
+        direction: Direction::azimuth(azimuth_deg.to_radians()).into(),
         power_db,
         phase_rad: None,
     }

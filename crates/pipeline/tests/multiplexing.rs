@@ -21,7 +21,7 @@ fn target(range_m: f64, rate_mps: f64, azimuth_deg: f64) -> CubeTarget {
     CubeTarget {
         range_m,
         rate_mps,
-        direction: Direction::azimuth(azimuth_deg.to_radians()),
+        direction: Direction::azimuth(azimuth_deg.to_radians()).into(),
         power_db: 0.0,
         phase_rad: None,
     }
@@ -138,7 +138,7 @@ fn a_fold_corrects_rate_range_and_angle() {
     assert_eq!(strongest(&together).doppler_fold, 1);
     let cell = (found.range_bin, found.doppler_bin);
     let snapshots = chain.cell_snapshots(&CubeFrames(cube.view()), 0..1, cell.0, cell.1).unwrap();
-    let a = boresight_core::steering::steering_vector(&array, truth.direction);
+    let a = boresight_core::steering::steering_vector(&array, *truth.direction);
     let product: Complex64 = a.iter().zip(&snapshots).map(|(a, y)| a.conj() * y).sum();
     let power: f64 = snapshots.iter().map(|y| y.norm_sqr()).sum();
     assert!(product.norm_sqr() / (8.0 * power) > 0.98);
@@ -183,7 +183,7 @@ fn over_the_bound(waveform: &Waveform, array: &Array, bin: f64, azimuth_deg: f64
     let covariance = single_snapshot(&[Complex64::ONE]);
     let noise_power = 1.0 / snr;
     let signals = Signals { covariance: covariance.view(), noise_power, snapshots: 1 };
-    let bound = deterministic_bound(array, &[truth.direction], &signals).unwrap();
+    let bound = deterministic_bound(array, &[*truth.direction], &signals).unwrap();
     ((squares / runs as f64).sqrt() / bound.azimuth_rad[0], 10.0 * snr.log10())
 }
 

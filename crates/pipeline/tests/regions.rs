@@ -46,7 +46,7 @@ fn counted(array: &Array) -> Counted {
 
 fn target(range_m: f64, azimuth_deg: f64) -> CubeTarget {
     let direction = Direction::azimuth(azimuth_deg.to_radians());
-    CubeTarget { range_m, direction, ..CubeTarget::default() }
+    CubeTarget { range_m, direction: direction.into(), ..CubeTarget::default() }
 }
 
 fn cube(

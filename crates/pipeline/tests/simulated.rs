@@ -13,7 +13,7 @@ fn target(range_m: f64, rate_mps: f64, azimuth_deg: f64, power_db: f64) -> CubeT
     CubeTarget {
         range_m,
         rate_mps,
-        direction: Direction::azimuth(azimuth_deg.to_radians()),
+        direction: Direction::azimuth(azimuth_deg.to_radians()).into(),
         power_db,
         phase_rad: None,
     }
@@ -93,7 +93,7 @@ fn cells_come_with_the_response_of_their_target() {
         assert!((cell.rate_mps - target.rate_mps).abs() < 0.1 * waveform.rate_resolution_mps());
         // Noise is 40 dB below the target; straddling and the rest of the Doppler compensation
         // cost less than a tenth of a radian. The power of the match is within 1 % of all power.
-        let a = boresight_core::steering::steering_vector(&array, target.direction);
+        let a = boresight_core::steering::steering_vector(&array, *target.direction);
         let match_power: boresight_core::Complex64 =
             a.iter().zip(snapshot.iter()).map(|(a, y)| a.conj() * y).sum();
         let power: f64 = snapshot.iter().map(|y| y.norm_sqr()).sum();
@@ -133,7 +133,7 @@ fn elevation_comes_with_a_planar_array() {
     let array = preset("awr1843").unwrap();
     let waveform = Waveform { transmitters: 3, ..waveform_awr1642() };
     let up = Direction::new(0.2, 0.15);
-    let targets = [CubeTarget { direction: up, ..target(5.0, 1.0, 0.0, 0.0) }];
+    let targets = [CubeTarget { direction: up.into(), ..target(5.0, 1.0, 0.0, 0.0) }];
     let result = run(&waveform, &array, &targets, 20.0, &ChainOptions::default());
     let found = result.detections[0];
     assert!((found.azimuth_rad - 0.2).abs() < 0.01, "{found:?}");

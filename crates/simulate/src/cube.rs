@@ -27,7 +27,7 @@ use boresight_math::decibels::{db_to_amplitude, db_to_power};
 use boresight_math::error::check_range;
 use boresight_math::phasor::cis;
 use boresight_options::shaped::interleaved;
-use boresight_options::{Described, columns};
+use boresight_options::{Described, Flat, columns};
 use ndarray::{Array1, Array5};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
@@ -61,8 +61,8 @@ pub struct CubeTarget {
     #[option(range = -100_000..=100_000)]
     pub rate_mps: f64,
     /// Where it is.
-    #[serde(rename = "..direction", default)]
-    pub direction: Direction,
+    #[serde(default)]
+    pub direction: Flat<Direction>,
     /// Power of one raw sample at one element.
     #[serde(default)]
     #[option(range = -200..=200)]
@@ -260,7 +260,7 @@ fn check(
     }
     let end_s = options.frames as f64 * waveform.frame_interval_s;
     for target in targets {
-        target.direction.check()?;
+        target.direction.0.check()?;
         check_range("rate_mps", target.rate_mps, -1e5, 1e5)?;
         check_range("power_db", target.power_db, -200.0, 200.0)?;
         check_range("phase_rad", target.phase_rad.unwrap_or(0.0), -1e6, 1e6)?;

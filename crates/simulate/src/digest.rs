@@ -72,7 +72,7 @@ pub fn reference_cube() -> Result<u64, SimulateError> {
     let target = |range_m, rate_mps, azimuth_rad| CubeTarget {
         range_m,
         rate_mps,
-        direction: Direction::new(azimuth_rad, 0.1),
+        direction: Direction::new(azimuth_rad, 0.1).into(),
         ..CubeTarget::default()
     };
     let targets = [target(2.5, 1.5, 0.3), target(4.0, -3.0, -0.7)];

@@ -31,7 +31,7 @@ impl Leg {
     /// Straight to the target.
     pub fn direct(target: &CubeTarget) -> Self {
         let CubeTarget { range_m, rate_mps, direction, .. } = *target;
-        Self { length_m: range_m, rate_mps, direction, gain: 1.0 }
+        Self { length_m: range_m, rate_mps, direction: *direction, gain: 1.0 }
     }
 }
 
@@ -66,14 +66,19 @@ mod tests {
         // 40 m away, 1.5 m over the ground.
         let direction = Direction::new(0.1, (1.0f64 / 40.0).atan());
         let range_m = 40.0f64.hypot(1.0);
-        let target = CubeTarget { range_m, rate_mps: -10.0, direction, ..CubeTarget::default() };
+        let target = CubeTarget {
+            range_m,
+            rate_mps: -10.0,
+            direction: direction.into(),
+            ..CubeTarget::default()
+        };
         let leg = ground.leg(&target).unwrap();
         assert!((leg.length_m - 40.0f64.hypot(2.0)).abs() < 1e-9, "{leg:?}");
         assert!((leg.direction.elevation_rad + (2.0f64 / 40.0).atan()).abs() < 1e-9);
         let later = CubeTarget { range_m: range_m - 1e-4, ..target };
         let rate = (ground.leg(&later).unwrap().length_m - leg.length_m) / 1e-5;
         assert!((leg.rate_mps - rate).abs() < 1e-4, "{} {rate}", leg.rate_mps);
-        let below = CubeTarget { direction: Direction::new(0.0, -0.1), ..target };
+        let below = CubeTarget { direction: Direction::new(0.0, -0.1).into(), ..target };
         assert_eq!(ground.leg(&below), None);
     }
 }

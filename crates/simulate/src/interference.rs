@@ -6,7 +6,7 @@
 use boresight_core::{Complex64, Direction, InputError, Random, Waveform};
 use boresight_math::error::check_range;
 use boresight_math::phasor::cis;
-use boresight_options::Described;
+use boresight_options::{Described, Flat};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -15,8 +15,7 @@ use std::f64::consts::TAU;
 #[serde(default)]
 pub struct Interferer {
     /// Where it is.
-    #[serde(rename = "..direction")]
-    pub direction: Direction,
+    pub direction: Flat<Direction>,
     /// Power of one raw sample at one element, while it is in the band.
     #[option(default = 0.0, range = -200..=200)]
     pub power_db: f64,
@@ -39,7 +38,7 @@ pub struct Interferer {
 
 impl Interferer {
     pub(crate) fn check(&self) -> Result<(), InputError> {
-        self.direction.check()?;
+        self.direction.0.check()?;
         for (what, value, least, most) in [
             ("power_db", self.power_db, -200.0, 200.0),
             ("start_frequency_hz", self.start_frequency_hz, 1e6, 1e12),

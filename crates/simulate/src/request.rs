@@ -5,7 +5,7 @@ use crate::error::SimulateError;
 use crate::snapshots::{Scene, SnapshotOptions, SnapshotSimulator, Snapshots};
 use boresight_core::imperfections::ImperfectionOptions;
 use boresight_core::{Array, Complex32, Waveform};
-use boresight_options::Described;
+use boresight_options::{Described, Flat};
 use ndarray::Array5;
 use serde::{Deserialize, Serialize};
 
@@ -14,8 +14,7 @@ use serde::{Deserialize, Serialize};
 #[serde(default)]
 pub struct SnapshotRequest {
     /// What is the same for all scenes.
-    #[serde(rename = "..options")]
-    pub options: SnapshotOptions,
+    pub options: Flat<SnapshotOptions>,
     /// Scenes.
     #[option(default = 1)]
     pub scenes: usize,
@@ -32,7 +31,7 @@ impl SnapshotRequest {
     /// As [`SnapshotSimulator::new`] and [`SnapshotSimulator::scenes`].
     pub fn simulate(&self, array: &Array, scene: Scene) -> Result<Snapshots, SimulateError> {
         let imperfections = self.imperfections.draw(array, self.options.seed)?;
-        let options = SnapshotOptions { scene, imperfections, ..self.options.clone() };
+        let options = SnapshotOptions { scene, imperfections, ..self.options.0.clone() };
         SnapshotSimulator::new(array, &options)?.scenes(self.first_scene as u64, self.scenes)
     }
 }
@@ -42,8 +41,7 @@ impl SnapshotRequest {
 #[serde(default)]
 pub struct CubeRequest {
     /// What is simulated.
-    #[serde(rename = "..options")]
-    pub options: CubeOptions,
+    pub options: Flat<CubeOptions>,
     /// Spherical wavefronts instead of plane ones.
     pub near_field: bool,
     /// Errors of the array's elements.
@@ -63,7 +61,7 @@ impl CubeRequest {
     ) -> Result<Array5<Complex32>, SimulateError> {
         let field = if self.near_field { Field::Near } else { Field::Far };
         let imperfections = self.imperfections.draw(array, self.options.seed)?;
-        let options = CubeOptions { field, imperfections, ..self.options.clone() };
+        let options = CubeOptions { field, imperfections, ..self.options.0.clone() };
         simulate_cube(waveform, array, targets, &options)
     }
 }

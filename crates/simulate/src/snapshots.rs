@@ -19,7 +19,7 @@ use boresight_math::decibels::{db_to_amplitude, db_to_power};
 use boresight_math::error::check_range;
 use boresight_math::phasor::cis;
 use boresight_options::shaped::interleaved;
-use boresight_options::{Described, columns};
+use boresight_options::{Described, Flat, columns};
 use ndarray::{Array1, Array2, Array3, ArrayViewMut2, Axis};
 use serde::{Deserialize, Serialize, Serializer};
 use std::f64::consts::FRAC_PI_2;
@@ -36,8 +36,7 @@ pub const MAX_TARGETS: usize = 1024;
 #[serde(default)]
 pub struct Target {
     /// Where it is.
-    #[serde(rename = "..direction")]
-    pub direction: Direction,
+    pub direction: Flat<Direction>,
     /// Its power at one element, `20 log10` of its amplitude.
     #[option(range = -300..=300)]
     pub power_db: f64,
@@ -129,8 +128,8 @@ pub struct SnapshotOptions {
 #[option(name = "SnapshotResult")]
 pub struct Snapshots {
     /// Scenes x elements x snapshots.
-    #[option(described_as = SnapshotValues)]
-    #[serde(rename = "..values", serialize_with = "with_shape")]
+    #[option(described_as = Flat<SnapshotValues>)]
+    #[serde(serialize_with = "with_shape")]
     pub values: Array3<Complex64>,
     /// Targets of each scene, with their phase in the first snapshot where they have one.
     pub truth: Vec<Vec<Target>>,
@@ -148,7 +147,7 @@ struct SnapshotValues {
 }
 
 fn with_shape<S: Serializer>(all: &Array3<Complex64>, serializer: S) -> Result<S::Ok, S::Error> {
-    SnapshotValues { data: interleaved(all), shape: all.dim().into() }.serialize(serializer)
+    Flat(SnapshotValues { data: interleaved(all), shape: all.dim().into() }).serialize(serializer)
 }
 
 /// A simulator for one array and one set of options.
@@ -174,7 +173,7 @@ impl SnapshotSimulator {
             Scene::Given(targets) => {
                 check_range("targets", targets.len() as f64, 0.0, MAX_TARGETS as f64)?;
                 for target in targets {
-                    target.direction.check()?;
+                    target.direction.0.check()?;
                     check_range("power_db", target.power_db, -300.0, 300.0)?;
                     check_range("phase_rad", target.phase_rad.unwrap_or(0.0), -1e6, 1e6)?;
                     check_range("range_m", target.range_m.unwrap_or(1.0), 1e-3, 1e9)?;
@@ -287,7 +286,8 @@ impl SnapshotSimulator {
                         direction: Direction {
                             azimuth_rad: symmetric(random, s.field_of_view_rad),
                             elevation_rad: symmetric(random, s.elevation_field_of_view_rad),
-                        },
+                        }
+                        .into(),
                         power_db: random.uniform(s.power_db[0], s.power_db[1]),
                         phase_rad: Some(random.phase()),
                         range_m: None,
@@ -299,7 +299,7 @@ impl SnapshotSimulator {
 
     fn response(&self, target: &Target) -> Array1<Complex64> {
         let mut response = match target.range_m {
-            None => steering_vector(&self.array, target.direction),
+            None => steering_vector(&self.array, *target.direction),
             Some(range_m) => self.paths.response(range_m, &target.direction.unit()),
         };
         if let Some(imperfections) = &self.options.imperfections {

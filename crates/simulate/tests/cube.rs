@@ -35,7 +35,7 @@ fn target(range_m: f64, rate_mps: f64, azimuth_deg: f64) -> CubeTarget {
     CubeTarget {
         range_m,
         rate_mps,
-        direction: Direction::azimuth(azimuth_deg.to_radians()),
+        direction: Direction::azimuth(azimuth_deg.to_radians()).into(),
         ..CubeTarget::default()
     }
 }
@@ -68,7 +68,7 @@ fn samples_are_those_of_the_signal_model() {
     let options = CubeOptions { snr_db: NOISELESS, frames: 2, ..CubeOptions::default() };
     let cube = simulate_cube(&waveform, &array, &[moving], &options).unwrap();
     assert_eq!(cube.dim(), (2, 3, 2, 4, 256));
-    let steering = steering_vector(&array, moving.direction);
+    let steering = steering_vector(&array, *moving.direction);
     for ((f, l, t, r, n), z) in cube.indexed_iter() {
         let ramp_s = waveform.adc_start_s + n as f64 / waveform.sample_rate_hz;
         let time_s = f as f64 * waveform.frame_interval_s
@@ -195,7 +195,7 @@ fn imperfections_shape_the_response_in_both_fields() {
     };
     let imperfections = Imperfections::random(&array, spread, 6).unwrap();
     let at = CubeTarget { phase_rad: Some(0.0), ..target(250.0, 0.0, -20.0) };
-    let expected = imperfections.steering_vector(&array, at.direction).unwrap();
+    let expected = imperfections.steering_vector(&array, *at.direction).unwrap();
     for (field, tolerance) in [(Field::Far, 1e-5), (Field::Near, 2e-3)] {
         let options = CubeOptions {
             snr_db: NOISELESS,
@@ -284,7 +284,7 @@ proptest! {
         let target = CubeTarget {
             range_m,
             rate_mps,
-            direction: Direction::azimuth(azimuth_rad),
+            direction: Direction::azimuth(azimuth_rad).into(),
             power_db,
             phase_rad: Some(phase),
         };

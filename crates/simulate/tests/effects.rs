@@ -116,7 +116,7 @@ fn a_road_makes_lobes_over_range() {
     let ground = Ground { radar_height_m: 0.5, reflection: 0.6 };
     for range_m in [20.0, 33.0, 51.0, 70.0] {
         let direction = Direction::new(0.0, (0.4f64 / range_m).asin());
-        let target = CubeTarget { direction, ..target(range_m) };
+        let target = CubeTarget { direction: direction.into(), ..target(range_m) };
         let plain = cube(&[target], CubeOptions::default());
         let options = CubeOptions { ground: Some(ground), ..CubeOptions::default() };
         let with = cube(&[target], options);
@@ -140,7 +140,7 @@ fn a_road_makes_lobes_over_range() {
 #[test]
 fn interference_lasts_as_long_as_ramps_are_near_each_other() {
     let crossing = Interferer {
-        direction: Direction::azimuth(0.4),
+        direction: Direction::azimuth(0.4).into(),
         power_db: 20.0,
         start_frequency_hz: 77.6e9,
         slope_hz_per_s: -10e12,

@@ -19,7 +19,7 @@ const NOISELESS: f64 = 300.0;
 
 fn given(targets: &[(f64, f64, Option<f64>)]) -> Scene {
     let target = |&(deg, power_db, phase_rad): &(f64, f64, Option<f64>)| Target {
-        direction: Direction::azimuth(deg.to_radians()),
+        direction: Direction::azimuth(deg.to_radians()).into(),
         power_db,
         phase_rad,
         range_m: None,
@@ -63,7 +63,7 @@ fn covariances_are_those_of_the_model() {
             let mut expected: Complex64 = truth
                 .iter()
                 .map(|t| {
-                    let a = steering_vector(&array, t.direction);
+                    let a = steering_vector(&array, *t.direction);
                     a[i] * a[k].conj() * db_to_power(t.power_db)
                 })
                 .sum();
@@ -81,7 +81,7 @@ fn the_first_snapshot_has_the_given_magnitude_and_phase() {
     for fluctuation in [Fluctuation::RandomPhase, Fluctuation::Coherent] {
         let scene = given(&[(17.0, -6.0, Some(0.7))]);
         let (values, truth) = simulate(&array, &options(scene, fluctuation, NOISELESS, 4));
-        let a = steering_vector(&array, truth[0].direction);
+        let a = steering_vector(&array, *truth[0].direction);
         let amplitude = Complex64::from_polar(10.0_f64.powf(-0.3), 0.7);
         for (k, a) in a.iter().enumerate() {
             assert!((values[[k, 0]] - a * amplitude).norm() < 1e-12);
@@ -166,7 +166,7 @@ fn imperfect_arrays_respond_as_the_core_says() {
         ..options(scene, Fluctuation::RandomPhase, NOISELESS, 1)
     };
     let (values, truth) = simulate(&array, &options);
-    let expected = imperfections.steering_vector(&array, truth[0].direction).unwrap();
+    let expected = imperfections.steering_vector(&array, *truth[0].direction).unwrap();
     for (given, expected) in values.iter().zip(&expected) {
         assert!((given - expected).norm() < 1e-12);
     }
@@ -181,7 +181,12 @@ fn near_and_far(
 ) -> (Vec<Complex64>, Vec<Complex64>) {
     let direction = Direction::azimuth(azimuth_deg.to_radians());
     let snapshot = |range_m| {
-        let target = Target { direction, range_m, phase_rad: Some(0.0), ..Target::default() };
+        let target = Target {
+            direction: direction.into(),
+            range_m,
+            phase_rad: Some(0.0),
+            ..Target::default()
+        };
         let options = SnapshotOptions {
             imperfections: imperfections.clone(),
             ..options(Scene::Given(vec![target]), Fluctuation::RandomPhase, NOISELESS, 1)
@@ -297,7 +302,7 @@ proptest! {
         } else {
             let direction = Direction::new(azimuth_rad, elevation_rad);
             let range_m = (other > 0.0).then_some(other);
-            Scene::Given(vec![Target { direction, power_db: power, phase_rad: Some(phase), range_m }])
+            Scene::Given(vec![Target { direction: direction.into(), power_db: power, phase_rad: Some(phase), range_m }])
         };
         let options = options(scene, Fluctuation::RandomPhase, snr_db, snapshots);
         let array = preset("awr1642").unwrap();

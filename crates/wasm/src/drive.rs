@@ -14,7 +14,7 @@ use boresight_formats::drive_log::{
     ReadReport, TopicOptions,
 };
 use boresight_mounting::{CalibrationOptions, SignOptions, signs};
-use boresight_options::Described;
+use boresight_options::{Described, Flat};
 use boresight_simulate::drive::TruthColumns;
 use boresight_simulate::{DriveOptions, Scenario, simulate_drive_reporting};
 use js_sys::Function;
@@ -34,11 +34,9 @@ pub struct ReadDriveOptions {
     /// The format of the files; found from their contents where none is named.
     format: Option<DriveFormat>,
     /// What the signs in them mean.
-    #[serde(rename = "..signs")]
-    signs: SignOptions,
+    signs: Flat<SignOptions>,
     /// Which topics of a recording are read.
-    #[serde(rename = "..topics")]
-    topics: TopicOptions,
+    topics: Flat<TopicOptions>,
 }
 
 /// Reads a drive from named files.
@@ -47,7 +45,7 @@ pub fn read_drive(files: &JsValue, options: &JsValue) -> Fallible<JsValue> {
     let ReadDriveOptions { format, signs, topics } = carry::read_optional(options)?;
     let files = Vec::<File>::read(files, "files")?;
     let files = files.into_iter().map(|file| (file.name, file.bytes)).collect();
-    record_of(drive_log::open_owned(files, format, &topics)?, signs)
+    record_of(drive_log::open_owned(files, format, &topics)?, *signs)
 }
 
 /// What JavaScript is given of a drive, once its signs are as they are meant.
@@ -72,7 +70,7 @@ impl DriveStream {
         let ReadDriveOptions { format, signs, topics } = carry::read_optional(options)?;
         match format {
             None | Some(DriveFormat::Mcap) => {
-                Ok(Self { reader: McapDriveReader::new(topics), signs })
+                Ok(Self { reader: McapDriveReader::new(topics.0), signs: *signs })
             }
             Some(_) => Err(drive_log::no_drive_log(format, std::iter::empty()).into()),
         }
@@ -114,7 +112,7 @@ pub fn simulate_drive(options: &JsValue, report: Option<Function>) -> Fallible<J
     counts.detections = scans.iter().map(|scan| scan.detections.len() as u64).sum();
     counts.motion = drive.log.motion.len() as u64;
     let record = DriveRecord::new(&drive.log, "simulated", &counts);
-    Ok(carry::write(&SimulatedDriveRecord { drive: record, truth: drive.truth_columns() }))
+    Ok(carry::write(&SimulatedDriveRecord { drive: record.into(), truth: drive.truth_columns() }))
 }
 
 /// A scenario that can be simulated.
@@ -140,8 +138,7 @@ pub struct DriveRecord<'a> {
     #[option(typescript = "DriveFormat | 'simulated'")]
     format: &'static str,
     /// Radars, scans, detections and motion.
-    #[serde(rename = "..columns")]
-    columns: DriveColumns,
+    columns: Flat<DriveColumns>,
     /// Where the radars' places are from, where the log has any.
     mountings: Option<MountingSource>,
     /// What the files held.
@@ -159,8 +156,7 @@ pub struct DriveRecord<'a> {
 #[option(name = "SimulatedDrive")]
 pub struct SimulatedDriveRecord<'a> {
     /// What a log of the drive holds.
-    #[serde(rename = "..drive")]
-    drive: DriveRecord<'a>,
+    drive: Flat<DriveRecord<'a>>,
     /// What really happened.
     truth: TruthColumns,
 }
@@ -185,7 +181,7 @@ impl<'a> DriveRecord<'a> {
     fn new(log: &DriveLog, format: &'static str, report: &'a ReadReport) -> Self {
         Self {
             format,
-            columns: log.into(),
+            columns: DriveColumns::from(log).into(),
             mountings: report.mountings,
             counts: DriveCounts {
                 detections: report.detections,

@@ -8,7 +8,7 @@ use crate::read::{Fields, Read};
 use boresight_aoa::method::Requirements;
 use boresight_aoa::{self as aoa, Data, Method};
 use boresight_core::{Array, Complex64, InputError};
-use boresight_options::Described;
+use boresight_options::{Described, Flat};
 use ndarray::{ArrayView2, ArrayView3, ArrayViewMut2};
 use serde::Serialize;
 use wasm_bindgen::JsValue;
@@ -20,15 +20,14 @@ pub struct MethodInfo {
     /// Its name.
     name: Method,
     /// What it needs and gives.
-    #[serde(rename = "..requirements")]
-    requirements: Requirements,
+    requirements: Flat<Requirements>,
 }
 
 /// The estimators and what each needs and gives.
 #[wasm_bindgen]
 pub fn methods() -> js_sys::Array {
     let all = Method::ALL.into_iter().chain(Method::NETWORKS);
-    carry::write_all(all.map(|name| MethodInfo { name, requirements: name.requirements() }))
+    carry::write_all(all.map(|name| MethodInfo { name, requirements: name.requirements().into() }))
 }
 
 /// Estimates angles once. To run one method on many cells keep an [`Estimator`].

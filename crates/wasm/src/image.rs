@@ -15,7 +15,7 @@ use boresight_image::{
 };
 use boresight_math::decibels::db_to_power;
 use boresight_math::error::check_range;
-use boresight_options::Described;
+use boresight_options::{Described, Flat};
 use boresight_pipeline::image::{Angles, Content, chain_options, map_grid};
 use boresight_pipeline::{AngleOptions, ChainOptions, suited};
 use boresight_signal::CfarOptions;
@@ -259,8 +259,7 @@ fn read_gate(mut fields: Fields) -> Fallible<Gate> {
 #[derive(Described, Serialize)]
 pub struct ImageDefaults {
     /// Of the chain: an image takes every detected cell.
-    #[serde(rename = "..chain")]
-    chain: ImageChain,
+    chain: Flat<ImageChain>,
     /// The method.
     method: Method,
     /// What the chain makes of the method's own, so that a cell gives sources only.
@@ -288,7 +287,7 @@ impl ImageDefaults {
         let suited = suited(*method, array, options);
         let ChainOptions { cfar, peak_grouping, max_detections, .. } = chain_options();
         Self {
-            chain: ImageChain { cfar, peak_grouping, max_detections },
+            chain: ImageChain { cfar, peak_grouping, max_detections }.into(),
             method: *method,
             dynamic_range_db: suited.dynamic_range_db,
             loading: suited.loading,

@@ -5,7 +5,7 @@ use crate::carry;
 use boresight_core::drive::{DriveLog, MotionSample, Pose};
 use boresight_core::drive_columns::DrivePoses;
 use boresight_mounting::trajectory::{self, TimedMotion};
-use boresight_options::{Described, columns};
+use boresight_options::{Described, Flat, columns};
 use serde::Serialize;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -17,8 +17,7 @@ pub struct Trajectory<'a> {
     #[serde(serialize_with = "columns::serialize")]
     time_s: &'a [f64],
     /// The poses.
-    #[serde(rename = "..poses")]
-    poses: DrivePoses,
+    poses: Flat<DrivePoses>,
 }
 
 /// Poses of the rear axle, or null where they do not follow. Yaw rates are empty or one a motion, NaN for
@@ -46,10 +45,10 @@ pub fn integrate_motion(
         })
         .collect();
     let poses = trajectory::integrate(&motions, angle_deg.to_radians(), x_m, y_m);
-    carry::write(
-        &poses
-            .map(|poses| Trajectory { time_s, poses: DrivePoses::of(poses.into_iter().map(Some)) }),
-    )
+    carry::write(&poses.map(|poses| Trajectory {
+        time_s,
+        poses: DrivePoses::of(poses.into_iter().map(Some)).into(),
+    }))
 }
 
 /// Longest gap of a true trajectory that is bridged, s.

@@ -82,7 +82,7 @@ impl Drawn<'_> {
             azimuths_rad.push(azimuth_rad);
         }
         let target = |(azimuth_rad, &power_db)| Target {
-            direction: Direction::azimuth(azimuth_rad),
+            direction: Direction::azimuth(azimuth_rad).into(),
             power_db,
             range_m: self.range_m,
             ..Target::default()

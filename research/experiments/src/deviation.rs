@@ -83,7 +83,7 @@ impl Deviation {
         self.found += 1;
         self.squared_error_deg2 += error_deg * error_deg;
         self.largest_error_deg = self.largest_error_deg.max(error_deg.abs());
-        let [a, b] = [target.direction, source.direction].map(|at| steering_vector(array, at));
+        let [a, b] = [target.direction, source.direction].map(|at| steering_vector(array, *at));
         let sum: Complex64 = a.iter().zip(&b).map(|(a, b)| a * b.conj()).sum();
         self.beam.add((sum / array.len() as f64).norm_sqr());
         self.power.add(source.power / db_to_power(target.power_db));
@@ -147,7 +147,7 @@ mod tests {
 
     fn target(azimuth_deg: f64, power_db: f64) -> Target {
         let direction = Direction::azimuth(azimuth_deg.to_radians());
-        Target { direction, power_db, ..Target::default() }
+        Target { direction: direction.into(), power_db, ..Target::default() }
     }
 
     fn source(azimuth_deg: f64, power: f64) -> Source {

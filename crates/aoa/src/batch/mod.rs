@@ -10,7 +10,7 @@ use crate::estimator::Estimator;
 use crate::method::Method;
 use boresight_core::limits::{check_bytes, check_operations};
 use boresight_core::{Complex64, InputError, Remark};
-use boresight_options::{Described, remark};
+use boresight_options::{Described, Flat, remark};
 use ndarray::{ArrayView3, Axis};
 use serde::Serialize;
 
@@ -54,8 +54,8 @@ pub struct Spectra {
 #[option(name = "BatchWarning")]
 pub struct WarningCount {
     /// That of the first cell it holds for.
-    #[option(described_as = Remark)]
-    #[serde(rename = "..first", serialize_with = "remark::serialize_one")]
+    #[option(described_as = Flat<Remark>)]
+    #[serde(serialize_with = "remark::serialize_flat")]
     pub first: Warning,
     /// Number of cells it holds for.
     pub cells: usize,

@@ -16,7 +16,7 @@ use boresight_math::decibels::{db_to_amplitude, db_to_power};
 use boresight_math::error::{check_finite, check_positive};
 use boresight_math::linalg::{Cholesky, adjoint, least_squares};
 use boresight_math::phasor::cis;
-use boresight_options::{Described, columns};
+use boresight_options::{Described, Flat, columns};
 use ndarray::{Array1, Array2, ArrayView2};
 use serde::{Deserialize, Serialize};
 
@@ -39,8 +39,8 @@ pub struct Bound {
 #[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
 pub struct BoundTarget {
     /// Where it is.
-    #[serde(rename = "..direction", default)]
-    pub direction: Direction,
+    #[serde(default)]
+    pub direction: Flat<Direction>,
     /// Its power over that of the noise, at one element.
     #[option(range = -300..=300)]
     pub snr_db: f64,
@@ -82,7 +82,7 @@ pub fn target_bound(
     targets: &[BoundTarget],
     options: &BoundRequest,
 ) -> Result<Bound, AoaError> {
-    let directions: Vec<Direction> = targets.iter().map(|target| target.direction).collect();
+    let directions: Vec<Direction> = targets.iter().map(|target| *target.direction).collect();
     let BoundRequest { snapshots, kind } = *options;
     let covariance = if snapshots == 1 && kind == Model::Deterministic {
         let amplitude = |t: &BoundTarget| cis(t.phase_rad) * db_to_amplitude(t.snr_db);

@@ -46,7 +46,7 @@ impl Significance {
         }
         let total = total_power(data);
         let Self { geometry, each, any, beams } = self;
-        let point = |index: usize| geometry.point(estimate.sources[index].direction);
+        let point = |index: usize| geometry.point(*estimate.sources[index].direction);
         let explained = if estimate.expected.is_some() {
             let stands_out = |last: &usize| {
                 beams.clear();

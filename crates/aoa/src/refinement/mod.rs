@@ -71,7 +71,7 @@ impl Refinement {
         estimate: &mut Estimate,
         data: Data<'_>,
     ) -> Result<(), AoaError> {
-        let directions: Vec<Direction> = estimate.sources.iter().map(|s| s.direction).collect();
+        let directions: Vec<Direction> = estimate.sources.iter().map(|s| *s.direction).collect();
         let mut refined = self.refine(&directions, data)?;
         self.keep_confidences(&estimate.sources, &mut refined);
         estimate.sources = refined;
@@ -89,7 +89,7 @@ impl Refinement {
         }
         let geometry = &self.nomp.geometry;
         let points = |sources: &[Source]| -> Vec<Point> {
-            sources.iter().map(|source| geometry.point(source.direction)).collect()
+            sources.iter().map(|source| geometry.point(*source.direction)).collect()
         };
         let (old, new) = (points(before), points(after));
         let nearest = |to: Point, among: &[Point]| {

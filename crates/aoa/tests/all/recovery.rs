@@ -118,7 +118,7 @@ fn azimuth_and_elevation_on_a_planar_array() {
     let mut random = Random::new(27, 0);
     let y = scene(&array, &wanted, &[1.0, 0.7], 0.0, 50, &mut random);
     let result = estimate(Method::Music, &array, &known(2), &y);
-    let mut at: Vec<Direction> = result.sources.iter().map(|s| s.direction).collect();
+    let mut at: Vec<Direction> = result.sources.iter().map(|s| *s.direction).collect();
     at.sort_by(|a, b| a.azimuth_rad.total_cmp(&b.azimuth_rad));
     for (a, w) in at.iter().zip(&wanted) {
         assert!((a.azimuth_rad - w.azimuth_rad).abs() < 1e-6, "{at:?}");

@@ -49,7 +49,7 @@ fn peaks_of_iaa_and_nomp_come_to_the_bound_and_sidelobes_go() {
             let (truth, signals, y) = scene(&array, 6, noise_power, &mut Random::new(81, trial));
             let data = Data::Snapshots(y.view());
             let peaks = estimator.estimate(data).unwrap().sources;
-            let peaks: Vec<Direction> = peaks.iter().map(|s| s.direction).collect();
+            let peaks: Vec<Direction> = peaks.iter().map(|s| *s.direction).collect();
             let sources = refinement.refine(&peaks, data).unwrap();
             right += usize::from(sources.len() == truth.len());
             let covariance = single_snapshot(&signals);

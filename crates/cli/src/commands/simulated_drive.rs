@@ -98,7 +98,7 @@ fn sensor(text: &str) -> Result<(u8, Mounting), CliError> {
         });
     }
     let PlacedRadar { id, mounting } = pairs::read("--sensor", text)?;
-    Ok((id, mounting))
+    Ok((id, *mounting))
 }
 
 fn misalignment(text: &str) -> Result<(u8, f64), CliError> {

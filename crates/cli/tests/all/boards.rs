@@ -63,7 +63,7 @@ fn a_cascade_is_its_folder_or_one_of_its_files() {
     );
     let config = RadarConfig::parse(text.as_bytes()).unwrap();
     let direction = Direction::azimuth(0.3);
-    let target = CubeTarget { range_m: 4.0, direction, ..CubeTarget::default() };
+    let target = CubeTarget { range_m: 4.0, direction: direction.into(), ..CubeTarget::default() };
     let options = CubeOptions { seed: 1, ..CubeOptions::default() };
     let array = preset("cascade86").unwrap();
     let mut cube = simulate_cube(&config.waveform, &array, &[target], &options).unwrap();

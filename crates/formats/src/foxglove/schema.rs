@@ -47,7 +47,7 @@ fn add_fields(
     required: &mut Vec<Value>,
 ) {
     for field in record.fields.iter().filter(|field| !left_out.contains(&field.name)) {
-        if let (true, Kind::Record(inner)) = (field.name.starts_with(".."), field.kind) {
+        if let (true, Kind::Record(inner)) = (field.flat, field.kind) {
             add_fields(inner, spelling, left_out, properties, required);
             continue;
         }

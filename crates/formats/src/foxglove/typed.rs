@@ -57,7 +57,7 @@ pub fn encode(message: &impl Serialize) -> Vec<u8> {
 
 /// A message of our own; what is not known or not finite is left out, and lists in a list follow one another.
 #[must_use]
-pub fn encode_own(message: &impl Serialize, left_out: &[&str]) -> Vec<u8> {
+pub fn encode_own(message: &(impl Serialize + Described), left_out: &[&str]) -> Vec<u8> {
     let mut value = json::result(message);
     if let Value::Object(fields) = &mut value {
         fields.retain(|name, _| !left_out.iter().any(|out| javascript(out) == *name));

@@ -11,7 +11,7 @@ mod stream;
 
 use crate::mmwave_cfg::RadarConfig;
 use boresight_core::Remark;
-use boresight_options::{Described, columns};
+use boresight_options::{Described, Flat, columns};
 use serde::{Serialize, Serializer};
 pub use stream::UartStream;
 
@@ -136,8 +136,7 @@ pub struct BoardLog {
     /// Packets, in order.
     pub frames: Vec<BoardFrame>,
     /// What was lost.
-    #[serde(rename = "..counts")]
-    pub counts: BoardLogCounts,
+    pub counts: Flat<BoardLogCounts>,
 }
 
 impl BoardLog {
@@ -147,7 +146,7 @@ impl BoardLog {
         let mut stream = UartStream::new(config);
         let mut frames = stream.push(bytes);
         frames.extend(stream.finish());
-        Self { frames, counts: stream.counts() }
+        Self { frames, counts: stream.counts().into() }
     }
 }
 

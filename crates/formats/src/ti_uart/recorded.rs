@@ -107,7 +107,7 @@ impl BoardLog {
         };
         let mut counts = stream.counts();
         counts.remarks.extend(lost);
-        Ok(Ok(Self { frames, counts }))
+        Ok(Ok(Self { frames, counts: counts.into() }))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::packet::Packet;
 use crate::error::LiveError;
+use boresight_options::Described;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,7 +18,7 @@ const MOST_SAMPLES: u64 = 65_507;
 const MOST_FRAME_BYTES: u64 = 64 << 20;
 
 /// What came and what did not.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Counts {
     /// Packets of the card, each once.

@@ -8,7 +8,7 @@ use boresight_formats::foxglove::{Channel, DriveTopics, Message, scene, topic};
 use boresight_mounting::{
     Alignment, AngleEstimate, CalibrationOptions, Car, FrameOutcome, MountingError, Remark,
 };
-use boresight_options::Described;
+use boresight_options::{Described, Flat};
 use serde::Serialize;
 
 /// Angles are told no more often, s of the drive.
@@ -32,8 +32,7 @@ pub struct MountingAngle<'a> {
     /// The angle less the nominal one, within half a turn.
     pub drift_rad: Option<f64>,
     /// The angle, and what it rests on.
-    #[serde(rename = "..estimate")]
-    pub estimate: &'a AngleEstimate,
+    pub estimate: Flat<&'a AngleEstimate>,
 }
 
 /// What became of a frame.
@@ -44,8 +43,7 @@ pub struct Frame {
     /// Number of the radar.
     pub sensor: u8,
     /// What the method made of it.
-    #[serde(rename = "..outcome")]
-    pub outcome: FrameOutcome,
+    pub outcome: Flat<FrameOutcome>,
 }
 
 /// What was told of a radar, and where.
@@ -184,7 +182,7 @@ impl<'a> ResultTopics<'a> {
         let frame = Frame {
             timestamp: Time::from(time_ns),
             sensor: scan.sensor,
-            outcome: FrameOutcome { weights: vec![], ..outcome },
+            outcome: FrameOutcome { weights: vec![], ..outcome }.into(),
         };
         let data = encode_own(&frame, &NOT_IN_FRAMES);
         out.push(Message { channel: radar.frame, time_ns, data });
@@ -214,7 +212,7 @@ impl<'a> ResultTopics<'a> {
             joint: self.joint,
             nominal_rad,
             drift_rad: estimate.drift_rad(&radar.options),
-            estimate,
+            estimate: estimate.into(),
         };
         out.push(Message { channel: radar.angle, time_ns, data: encode_own(&angle, &[]) });
         let mounting = Mounting { x_m, y_m, yaw_rad: estimate.angle_rad };

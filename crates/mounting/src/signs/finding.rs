@@ -57,7 +57,7 @@ impl Display for Untold {
 }
 
 /// What was found out of one sign.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
 pub struct SignFinding {
     /// Whether it is the usual one (left, receding); `None` where the drive does not tell.
     pub usual: Option<bool>,
@@ -70,7 +70,7 @@ pub struct SignFinding {
 }
 
 /// What was found out of the signs of a log.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
 pub struct SignFindings {
     /// Of azimuths: usual is positive to the left.
     pub azimuth: SignFinding,

@@ -11,24 +11,22 @@ mod speed;
 use crate::error::MountingError;
 use boresight_core::{DriveLog, Scan};
 use boresight_math::error::check_range;
+use boresight_options::{Described, Flat};
 use serde::Serialize;
 use std::fmt::{Display, Formatter};
 
 /// Statistics of one radar of a log. Numbers that the log does not tell are NaN, and
 /// [`Self::untold`] says why.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
 pub struct SensorStatistics {
     /// The radar, by its number in the log.
     pub sensor: u8,
     /// How often it scans, and how much it detects.
-    #[serde(rename = "..counts")]
-    pub counts: Counts,
+    pub counts: Flat<Counts>,
     /// How its detections scatter.
-    #[serde(rename = "..noise")]
-    pub noise: Noise,
+    pub noise: Flat<Noise>,
     /// What its scans say of its mounting angle.
-    #[serde(rename = "..angles")]
-    pub angles: Angles,
+    pub angles: Flat<Angles>,
     /// Speed of the log over the radar's.
     pub speed_ratio: f64,
     /// What cannot be told, and why.
@@ -36,7 +34,7 @@ pub struct SensorStatistics {
 }
 
 /// How often a radar scans, and how much it detects.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
 pub struct Counts {
     /// Scans.
     pub scans: u64,
@@ -62,7 +60,7 @@ pub struct Counts {
 
 /// How detections of standing things scatter about the Doppler curve of their scan, in scans faster than
 /// 3 m/s. Without labels all detections count as standing.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
 pub struct Noise {
     /// Share with a residual of more than 1 m/s.
     pub outlier_share: f64,
@@ -75,7 +73,7 @@ pub struct Noise {
 }
 
 /// What scans faster than 3 m/s say of the mounting angle, each alone, by RANSAC and least squares.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
 pub struct Angles {
     /// Angle less the one the log states.
     pub offset_rad: f64,
@@ -109,7 +107,7 @@ impl Angles {
 }
 
 /// Rows of the statistics that belong together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Described, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Row {
     /// Cycle and its jitter.
@@ -143,7 +141,7 @@ impl Display for Row {
 }
 
 /// What a log does not tell.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Described, Serialize)]
 pub struct Untold {
     /// Which rows.
     pub row: Row,
@@ -179,7 +177,14 @@ pub fn log_statistics(
             let angles = angles::angles(log, &frames, mounting, max_gap_s, &mut untold);
             let speed_ratio =
                 speed::ratio(log, &frames, mounting, angles.delay_s, max_gap_s, &mut untold);
-            Ok(SensorStatistics { sensor: sensor.id, counts, noise, angles, speed_ratio, untold })
+            Ok(SensorStatistics {
+                sensor: sensor.id,
+                counts: counts.into(),
+                noise: noise.into(),
+                angles: angles.into(),
+                speed_ratio,
+                untold,
+            })
         })
         .collect()
 }

@@ -30,7 +30,7 @@ fn run(names: [&str; 3], targets: &[(f64, f64)], seed: u64) -> RegionFrame {
     let (waveform, array) = (waveform_3dcnn_simulated(), Array::ula(8).unwrap());
     let echo = |&(range_m, azimuth_rad): &(f64, f64)| {
         let direction = Direction::azimuth(azimuth_rad);
-        CubeTarget { range_m, direction, ..CubeTarget::default() }
+        CubeTarget { range_m, direction: direction.into(), ..CubeTarget::default() }
     };
     let targets: Vec<CubeTarget> = targets.iter().map(echo).collect();
     let options = CubeOptions { snr_db: 10.0, seed, ..CubeOptions::default() };

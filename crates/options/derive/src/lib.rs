@@ -24,8 +24,10 @@ use syn::{Data, DeriveInput, parse_macro_input};
 /// - `#[option(required)]`: the field has to be given though it has a default in Rust. So has a field
 ///   of a struct without `#[serde(default)]`, unless it is an `Option`.
 /// - `#[serde(skip)]`: the field is not described.
-/// - `#[serde(rename = "..NAME")]`: the fields of the field stand among those of the struct.
 /// - `#[serde(skip_serializing_if = ...)]`: the field may be absent in a result.
+///
+/// A field of type `boresight_options::Flat` is flattened outside Rust: the fields of its value are
+/// among those of the struct.
 ///
 /// `#[option(name = "...")]` on the type gives its name outside Rust, where that of the type would not
 /// be the only one.

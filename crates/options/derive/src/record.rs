@@ -37,20 +37,30 @@ pub fn expand(input: &DeriveInput, fields: &Fields) -> Result<TokenStream> {
             None if of_all.camel_case => in_camel_case(&own),
             None => own,
         };
-        let spread = wire.starts_with("..");
-        let required =
-            options.required || !(has_defaults || serde.default || spread || is_option(ty));
+        let may_have_default = has_defaults || serde.default || is_option(ty);
         let (doc, may_be_absent) = (doc(&field.attrs), serde.may_be_absent);
         let range = range_tokens(options.range.as_ref());
         let described_as = as_static(options.described_as.as_ref().unwrap_or(ty).to_token_stream());
         let schema = options.schema.as_deref().unwrap_or("{}");
-        let kind = match &options.typescript {
-            Some(text) => quote! {
-                ::boresight_options::Kind::Special(
-                    &::boresight_options::Special::in_typescript(#text, #schema),
-                )
-            },
-            None => quote!(<#described_as as ::boresight_options::Described>::KIND),
+        let (kind, flat) = match &options.typescript {
+            Some(text) => (
+                quote! {
+                    ::boresight_options::Kind::Special(
+                        &::boresight_options::Special::in_typescript(#text, #schema),
+                    )
+                },
+                quote!(false),
+            ),
+            None => (
+                quote!(<#described_as as ::boresight_options::Described>::KIND),
+                quote!(<#described_as as ::boresight_options::Described>::FLAT),
+            ),
+        };
+        // A flat field is never given itself; its own fields may be required.
+        let required = match (options.required, may_have_default) {
+            (true, _) => quote!(true),
+            (false, true) => quote!(false),
+            (false, false) => quote!(!#flat),
         };
         let place = described.len();
         described.push(quote! {
@@ -58,6 +68,7 @@ pub fn expand(input: &DeriveInput, fields: &Fields) -> Result<TokenStream> {
                 name: #wire,
                 doc: ::boresight_options::doc(#doc),
                 kind: #kind,
+                flat: #flat,
                 range: #range,
                 may_be_absent: #may_be_absent,
                 required: #required,
@@ -66,10 +77,12 @@ pub fn expand(input: &DeriveInput, fields: &Fields) -> Result<TokenStream> {
         if options.described_as.is_some() || options.typescript.is_some() {
             continue;
         }
-        let at = if spread { quote!(at) } else { quote!(&at.field(FIELDS[#place].name)) };
-        checks.push(quote! {
-            ::boresight_options::Described::check(&self.#ident, FIELDS[#place].range, #at)?;
-        });
+        checks.push(quote! {{
+            let field = &FIELDS[#place];
+            let own = at.field(field.name);
+            let at = if field.flat { at } else { &own };
+            ::boresight_options::Described::check(&self.#ident, field.range, at)?;
+        }});
     }
     let default = has_default.then(|| {
         quote! {

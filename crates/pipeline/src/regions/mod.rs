@@ -236,12 +236,12 @@ impl RegionChain {
         let (matrix, vectors) = (covariance.view(), snapshots.ncols());
         let count = counted.count(Data::Covariance { matrix, snapshots: vectors })?;
         let estimate = counted.estimate_of(count.sources, data)?;
-        let directions: Vec<Direction> = estimate.sources.iter().map(|s| s.direction).collect();
+        let directions: Vec<Direction> = estimate.sources.iter().map(|s| *s.direction).collect();
         let ranges_m = self.ranges_m(found, &directions);
         let mut targets = Vec::with_capacity(directions.len());
         let mut beyond_horizon = 0;
         for (source, range_m) in estimate.sources.iter().zip(ranges_m) {
-            let sine = found.sine(source.direction);
+            let sine = found.sine(*source.direction);
             if sine.abs() > 1.0 {
                 beyond_horizon += 1;
                 continue;

@@ -1,7 +1,7 @@
 //! Options of regions.
 
 use crate::error::PipelineError;
-use boresight_options::{Described, Naming, check};
+use boresight_options::{Described, Flat, Naming, check};
 use boresight_signal::region::RegionOptions;
 use boresight_signal::{CfarOptions, Region, Window};
 use serde::{Deserialize, Serialize};
@@ -24,8 +24,7 @@ pub enum Rotation {
 #[serde(default)]
 pub struct RegionChainOptions {
     /// Range bins and chirps of a region.
-    #[serde(rename = "..size")]
-    pub size: RegionOptions,
+    pub size: Flat<RegionOptions>,
     /// Range bins on each side of a region's middle that count; bins beyond are set to zero, and peaks there begin
     /// regions of their own. All that the region holds if absent.
     pub reach_bins: Option<usize>,

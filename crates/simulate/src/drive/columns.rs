@@ -2,7 +2,7 @@
 
 use super::{CarErrors, SimulatedDrive, YawRateErrors};
 use boresight_core::drive::Mounting;
-use boresight_options::{Described, columns};
+use boresight_options::{Described, Flat, columns};
 use serde::Serialize;
 
 /// What really happened in a simulated drive.
@@ -31,8 +31,7 @@ pub struct TrueSensor {
     /// Its number in the drive.
     pub id: u8,
     /// Its place and direction.
-    #[serde(rename = "..mounting")]
-    pub mounting: Mounting,
+    pub mounting: Flat<Mounting>,
     /// Root mean square of its azimuth bias within 55 deg.
     pub azimuth_bias_rms_rad: f64,
 }
@@ -61,7 +60,7 @@ impl SimulatedDrive {
                 .zip(&truth.azimuth_bias_rms_rad)
                 .map(|(&(id, mounting), &azimuth_bias_rms_rad)| TrueSensor {
                     id,
-                    mounting,
+                    mounting: mounting.into(),
                     azimuth_bias_rms_rad,
                 })
                 .collect(),

@@ -1,7 +1,7 @@
 //! Radars and misalignments by number, as serde carries them.
 
 use boresight_core::drive::Mounting;
-use boresight_options::{Described, Kind, Special};
+use boresight_options::{Described, Flat, Kind, Special};
 use serde::{Deserialize, Serialize};
 
 /// A radar of a simulated drive.
@@ -10,8 +10,7 @@ pub struct PlacedRadar {
     /// Its number.
     pub id: u8,
     /// Where it truly sits and which way it looks.
-    #[serde(rename = "..mounting")]
-    pub mounting: Mounting,
+    pub mounting: Flat<Mounting>,
 }
 
 /// Radars as a list of [`PlacedRadar`].
@@ -27,8 +26,10 @@ pub mod sensors {
         radars: &[(u8, Mounting)],
         serializer: S,
     ) -> Result<S::Ok, S::Error> {
-        let placed: Vec<PlacedRadar> =
-            radars.iter().map(|&(id, mounting)| PlacedRadar { id, mounting }).collect();
+        let placed: Vec<PlacedRadar> = radars
+            .iter()
+            .map(|&(id, mounting)| PlacedRadar { id, mounting: mounting.into() })
+            .collect();
         placed.serialize(serializer)
     }
 
@@ -40,7 +41,7 @@ pub mod sensors {
         deserializer: D,
     ) -> Result<Vec<(u8, Mounting)>, D::Error> {
         let placed = Vec::<PlacedRadar>::deserialize(deserializer)?;
-        Ok(placed.into_iter().map(|radar| (radar.id, radar.mounting)).collect())
+        Ok(placed.into_iter().map(|radar| (radar.id, *radar.mounting)).collect())
     }
 }
 

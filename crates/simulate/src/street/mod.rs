@@ -14,7 +14,7 @@ use boresight_core::drive::{Mounting, RADARSCENES_SENSORS};
 use boresight_core::presets::preset;
 use boresight_core::{Complex32, Random, Waveform};
 use boresight_math::error::check_range;
-use boresight_options::{Described, Naming, check, columns};
+use boresight_options::{Described, Flat, Naming, check, columns};
 use ndarray::Array5;
 use serde::{Deserialize, Serialize, Serializer};
 use std::f64::consts::{FRAC_PI_3, PI};
@@ -97,8 +97,8 @@ pub struct StreetOutline {
     /// What it is.
     pub kind: StreetKind,
     /// Corners in the car's frame: of a polygon, the two ends of a line, or one point.
-    #[option(described_as = Corners)]
-    #[serde(rename = "..corners_m", serialize_with = "as_columns")]
+    #[option(described_as = Flat<Corners>)]
+    #[serde(serialize_with = "as_columns")]
     pub corners_m: Vec<[f64; 2]>,
 }
 
@@ -115,7 +115,7 @@ struct Corners {
 
 fn as_columns<S: Serializer>(corners: &[[f64; 2]], serializer: S) -> Result<S::Ok, S::Error> {
     let column = |axis: usize| corners.iter().map(|corner| corner[axis]).collect();
-    Corners { x_m: column(0), y_m: column(1) }.serialize(serializer)
+    Flat(Corners { x_m: column(0), y_m: column(1) }).serialize(serializer)
 }
 
 /// A radar on the car.
@@ -138,8 +138,7 @@ pub struct StreetRadar {
 #[option(name = "StreetScene")]
 pub struct Street {
     /// What it was made from.
-    #[serde(rename = "..options")]
-    options: StreetOptions,
+    options: Flat<StreetOptions>,
     /// The car's radars, the four of the `RadarScenes` car as mounted there, and one that looks back.
     pub radars: Vec<StreetRadar>,
     /// All points.
@@ -165,7 +164,7 @@ impl Street {
         let mountings = RADARSCENES_SENSORS.into_iter().map(|(_, mounting)| mounting).chain([REAR]);
         let radars = STREET_RADARS.into_iter().zip(mountings).map(radar).collect();
         let (targets, outlines) = layout::layout(&mut Random::new(options.seed, 0));
-        Ok(Self { options, radars, targets, outlines })
+        Ok(Self { options: options.into(), radars, targets, outlines })
     }
 
     /// The options.
@@ -205,7 +204,7 @@ impl Street {
             seed: Random::new(self.options.seed, radar as u64 + 1).bits(),
             ..CubeOptions::default()
         };
-        let echoes: Vec<_> = targets.iter().map(|target| target.echo).collect();
+        let echoes: Vec<_> = targets.iter().map(|target| *target.echo).collect();
         Ok((simulate_cube(&waveform, &preset(array)?, &echoes, &options)?, targets))
     }
 }

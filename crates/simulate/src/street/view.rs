@@ -3,7 +3,7 @@
 use super::{Street, StreetKind, StreetRadar};
 use crate::cube::CubeTarget;
 use boresight_core::Direction;
-use boresight_options::Described;
+use boresight_options::{Described, Flat};
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 
@@ -31,8 +31,7 @@ pub struct VisibleTarget {
     /// Index among the street's targets.
     pub target: usize,
     /// Range, rate, direction and power in the radar's frame.
-    #[serde(rename = "..echo")]
-    pub echo: CubeTarget,
+    pub echo: Flat<CubeTarget>,
 }
 
 /// The points in the radar's field of view that nothing hides.
@@ -69,8 +68,14 @@ pub(super) fn visible(street: &Street, radar: &StreetRadar) -> Vec<VisibleTarget
             return None;
         }
         let direction = Direction::azimuth(azimuth_rad);
-        let echo = CubeTarget { range_m, rate_mps, direction, power_db, phase_rad: None };
-        Some(VisibleTarget { target: index, echo })
+        let echo = CubeTarget {
+            range_m,
+            rate_mps,
+            direction: direction.into(),
+            power_db,
+            phase_rad: None,
+        };
+        Some(VisibleTarget { target: index, echo: echo.into() })
     };
     street.targets.iter().enumerate().filter_map(see).collect()
 }

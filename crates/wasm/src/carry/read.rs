@@ -32,7 +32,8 @@ pub fn read_named<T: DeserializeOwned + Described>(value: &JsValue, name: &str) 
     if let Some(object) = value.dyn_ref::<Object>() {
         check_required(object, &T::KIND, &at)?;
     }
-    let read = T::deserialize(Reader { value: value.clone(), at, is_angle: false, known: None })?;
+    let (value, kind) = (value.clone(), Some(&T::KIND));
+    let read = T::deserialize(Reader { value, at, is_angle: false, kind, known: None })?;
     read.check(None, &at)?;
     Ok(read)
 }
@@ -41,7 +42,7 @@ pub fn read_named<T: DeserializeOwned + Described>(value: &JsValue, name: &str) 
 fn check_required(object: &Object, kind: &Kind, at: &At<'_>) -> Fallible<()> {
     let Kind::Record(record) = kind else { return Ok(()) };
     for field in record.fields {
-        if field.name.starts_with("..") {
+        if field.flat {
             check_required(object, &field.kind, at)?;
         } else if field.required {
             let value = Reflect::get(object, &property(field.name).key);
@@ -61,6 +62,8 @@ pub struct Reader<'a> {
     pub(super) value: JsValue,
     pub(super) at: At<'a>,
     pub(super) is_angle: bool,
+    /// Description of the value; `None` for values in maps, which have none.
+    pub(super) kind: Option<&'static Kind>,
     /// Where the value's fields stand among those of another object: all names that this one has.
     pub(super) known: Option<&'a Known>,
 }
@@ -74,8 +77,8 @@ impl<'a> Reader<'a> {
         known: &'a Known,
     ) -> Fallible<T> {
         check_required(object, &T::KIND, &at)?;
-        let value = object.clone().into();
-        let read = T::deserialize(Reader { value, at, is_angle: false, known: Some(known) })?;
+        let (value, kind) = (object.clone().into(), Some(&T::KIND));
+        let read = T::deserialize(Reader { value, at, is_angle: false, kind, known: Some(known) })?;
         read.check(None, &at)?;
         Ok(read)
     }
@@ -101,7 +104,8 @@ impl<'a> Reader<'a> {
     #[inline(never)]
     fn items(&self) -> Reading<Items<'_>> {
         let length = item_count(&self.value, &|| self.name())?;
-        Ok(Items::new(&self.value, length, &self.at, self.is_angle))
+        let kind = self.kind.and_then(Kind::item);
+        Ok(Items::new(&self.value, length, &self.at, self.is_angle, kind))
     }
 
     fn number(&self) -> Reading<f64> {
@@ -129,7 +133,8 @@ impl<'a> Reader<'a> {
             return Err(self.wrong_type("an object"));
         }
         let known = self.known.unwrap_or(own);
-        Ok(FieldsOf::new(self.value.unchecked_ref(), names, &self.at, known))
+        let record = self.kind.and_then(Kind::record);
+        Ok(FieldsOf::new(self.value.unchecked_ref(), names, record, &self.at, known))
     }
 
     #[inline(never)]

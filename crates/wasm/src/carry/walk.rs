@@ -5,7 +5,7 @@ use super::names::property;
 use super::read::{Reader, Reading};
 use super::refusal::ReadError;
 use crate::given;
-use boresight_options::At;
+use boresight_options::{At, Field, Kind, Record};
 use js_sys::{Object, Reflect};
 use serde::de::{DeserializeSeed, IntoDeserializer, MapAccess, SeqAccess};
 use std::iter::Zip;
@@ -19,33 +19,49 @@ pub(super) struct FieldsOf<'a> {
     object: &'a Object,
     /// By their place, which serde takes for a name and compares at no cost.
     fields: Zip<RangeFrom<u64>, Iter<'static, &'static str>>,
+    /// Their descriptions; empty without one of the struct.
+    described: &'static [Field],
     at: &'a At<'a>,
     known: &'a Known,
-    next: Option<(&'static str, JsValue, bool)>,
+    next: Option<Next>,
+}
+
+/// A field and the value to read it from: for a flat field, that of the outer struct.
+struct Next {
+    name: &'static str,
+    described: Option<&'static Field>,
+    value: JsValue,
+}
+
+fn is_flat(described: Option<&Field>) -> bool {
+    described.is_some_and(|field| field.flat)
 }
 
 impl<'a> FieldsOf<'a> {
     pub fn new(
         object: &'a Object,
         names: &'static [&'static str],
+        record: Option<&'static Record>,
         at: &'a At<'a>,
         known: &'a Known,
     ) -> Self {
-        Self { object, fields: (0_u64..).zip(names), at, known, next: None }
+        let described = record.map_or(&[][..], |record| record.fields);
+        Self { object, fields: (0_u64..).zip(names), described, at, known, next: None }
     }
 
     /// The place of the next field that the object has.
     #[inline(never)]
     fn advance(&mut self) -> Reading<Option<u64>> {
-        for (place, &field) in self.fields.by_ref() {
-            if field.starts_with("..") {
-                self.next = Some((field, self.object.clone().into(), false));
-                return Ok(Some(place));
-            }
-            let value = self.known.get(self.object, field);
-            let value = value.map_err(|_| given::throws(self.at.field(field).path()))?;
+        for (place, &name) in self.fields.by_ref() {
+            let described = self.described.iter().find(|field| field.name == name);
+            let value = if is_flat(described) {
+                Some(self.object.clone().into())
+            } else {
+                let value = self.known.get(self.object, name);
+                value.map_err(|_| given::throws(self.at.field(name).path()))?
+            };
             if let Some(value) = value {
-                self.next = Some((field, value, property(field).is_angle));
+                self.next = Some(Next { name, described, value });
                 return Ok(Some(place));
             }
         }
@@ -54,10 +70,16 @@ impl<'a> FieldsOf<'a> {
 
     #[inline(never)]
     fn value(&mut self) -> Reader<'a> {
-        let (field, value, is_angle) = self.next.take().unwrap_or(("", JsValue::UNDEFINED, false));
-        let spread = field.starts_with("..");
-        let at = if spread { *self.at } else { self.at.field(field) };
-        Reader { value, at, is_angle, known: spread.then_some(self.known) }
+        let none = Next { name: "", described: None, value: JsValue::UNDEFINED };
+        let Next { name, described, value } = self.next.take().unwrap_or(none);
+        let is_flat = is_flat(described);
+        Reader {
+            value,
+            at: if is_flat { *self.at } else { self.at.field(name) },
+            is_angle: !is_flat && property(name).is_angle,
+            kind: described.map(|field| &field.kind),
+            known: is_flat.then_some(self.known),
+        }
     }
 }
 
@@ -84,12 +106,19 @@ pub(super) struct Items<'a> {
     length: u32,
     at: &'a At<'a>,
     is_angle: bool,
+    kind: Option<&'static Kind>,
     next: u32,
 }
 
 impl<'a> Items<'a> {
-    pub fn new(array: &'a JsValue, length: u32, at: &'a At<'a>, is_angle: bool) -> Self {
-        Self { array, length, at, is_angle, next: 0 }
+    pub fn new(
+        array: &'a JsValue,
+        length: u32,
+        at: &'a At<'a>,
+        is_angle: bool,
+        kind: Option<&'static Kind>,
+    ) -> Self {
+        Self { array, length, at, is_angle, kind, next: 0 }
     }
 
     pub fn length(&self) -> usize {
@@ -104,7 +133,7 @@ impl<'a> Items<'a> {
         let at = self.at.item(self.next as usize);
         let value = given::item(self.array, self.next, &|| at.path())?;
         self.next += 1;
-        Ok(Some(Reader { value, at, is_angle: self.is_angle, known: None }))
+        Ok(Some(Reader { value, at, is_angle: self.is_angle, kind: self.kind, known: None }))
     }
 }
 
@@ -161,7 +190,7 @@ impl<'de> MapAccess<'de> for Entries<'_> {
         let name = self.next.as_string().unwrap_or_default();
         let at = self.at.field(&name);
         let value = Reflect::get(self.object, &self.next).map_err(|_| given::throws(at.path()))?;
-        let reader = Reader { value, at, is_angle: self.is_angle, known: None };
+        let reader = Reader { value, at, is_angle: self.is_angle, kind: None, known: None };
         seed.deserialize(reader).map_err(|error| error.at(&at))
     }
 }

@@ -1,8 +1,8 @@
 //! Results as plain JavaScript objects with typed arrays of their own.
 
 use super::names::{Property, property};
-use boresight_options::NumberType;
 use boresight_options::columns::number_type;
+use boresight_options::{FLAT_NEWTYPE, NumberType};
 use js_sys::{Array, Float32Array, Float64Array, Int8Array, Object, Uint8Array, Uint32Array};
 use serde::ser::{
     Serialize, SerializeMap, SerializeSeq, SerializeStruct, SerializeTuple, Serializer,
@@ -91,6 +91,20 @@ struct Writer<'a> {
     place: Place<'a>,
     /// Which numbers the bytes are that come next.
     column: Option<NumberType>,
+}
+
+impl Writer<'_> {
+    /// Returns the writer for the value in a newtype: a flat struct, or the bytes of numbers.
+    // Once for all types of values, which keeps the module small.
+    #[inline(never)]
+    fn inside(self, name: &str) -> Self {
+        match self.place {
+            Place::Property(object, _) if name == FLAT_NEWTYPE => {
+                Writer { place: Place::Spread(object), ..self }
+            }
+            _ => Writer { column: number_type(name).or(self.column), ..self },
+        }
+    }
 }
 
 const LEAVES: serde_wasm_bindgen::Serializer =
@@ -199,13 +213,13 @@ impl<'a> Serializer for Writer<'a> {
         Ok(Some(property(variant).key.clone()))
     }
 
+    #[inline(always)]
     fn serialize_newtype_struct<T: Serialize + ?Sized>(
         self,
         name: &'static str,
         value: &T,
     ) -> Written<Answer> {
-        // The bytes of the numbers come next.
-        value.serialize(Writer { column: number_type(name).or(self.column), ..self })
+        value.serialize(self.inside(name))
     }
 
     fn serialize_newtype_variant<T: Serialize + ?Sized>(
@@ -331,9 +345,6 @@ impl Fields<'_> {
     #[inline(never)]
     fn writer(&self, field: &'static str) -> Writer<'_> {
         let Some(object) = self.object() else { return Writer::default() };
-        if field.starts_with("..") {
-            return Writer { place: Place::Spread(object), ..Writer::default() };
-        }
         let Property { key, is_angle, .. } = property(field);
         let place = Place::Property(object, key);
         Writer { is_angle: *is_angle, place, ..Writer::default() }

@@ -96,12 +96,9 @@ fn every_field<T: Described + DeserializeOwned + Debug>(fewest: usize) {
 
 fn collect(record: &Record, above: &[String], rust: &[String], leaves: &mut Vec<Leaf>) {
     for field in record.fields {
-        let spread = field.name.strip_prefix("..");
-        let rust = [rust, &[spread.unwrap_or(field.name).to_owned()]].concat();
-        let path = match spread {
-            Some(_) => above.to_vec(),
-            None => [above, &[naming::javascript(field.name)]].concat(),
-        };
+        let rust = [rust, &[field.name.to_owned()]].concat();
+        let own = (!field.flat).then(|| naming::javascript(field.name));
+        let path = above.iter().cloned().chain(own).collect::<Vec<_>>();
         match field.kind {
             Kind::Record(inner) => collect(inner, &path, &rust, leaves),
             _ => leaves.push(Leaf { path, rust, field }),
@@ -119,7 +116,7 @@ fn with_required(record: &Record) -> JsValue {
 fn add_required(object: &Object, record: &Record) {
     for field in record.fields {
         match field.kind {
-            Kind::Record(inner) if field.name.starts_with("..") => add_required(object, inner),
+            Kind::Record(inner) if field.flat => add_required(object, inner),
             kind if field.required => {
                 let value = first_value(&kind);
                 Reflect::set(object, &naming::javascript(field.name).into(), &value).unwrap();

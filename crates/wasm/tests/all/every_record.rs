@@ -80,7 +80,7 @@ fn same(kind: &Kind, here: &Value, there: &JsValue, is_angle: bool, path: &str) 
 fn fields(record: &Record, here: &Value, there: &JsValue, path: &str) -> u32 {
     let mut count = 0;
     for field in record.fields {
-        if let (true, Kind::Record(inner)) = (field.name.starts_with(".."), field.kind) {
+        if let (true, Kind::Record(inner)) = (field.flat, field.kind) {
             count += fields(inner, &here[field.name], there, path);
             continue;
         }

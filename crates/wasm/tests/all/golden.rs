@@ -23,7 +23,7 @@ const TOLERANCE_DEG: f64 = 1e-5;
 
 fn snapshots(array: &str, count: usize) -> Array2<Complex64> {
     let target = |azimuth_deg: f64, power_db| Target {
-        direction: Direction::azimuth(azimuth_deg.to_radians()),
+        direction: Direction::azimuth(azimuth_deg.to_radians()).into(),
         power_db,
         ..Target::default()
     };

@@ -180,7 +180,7 @@ impl Plan {
                 let refined;
                 let (sources, sure) = if candidate.refined {
                     refined = refinement.refine(&finder.sure(all), y)?;
-                    (&*refined, refined.iter().map(|s| s.direction).collect())
+                    (&*refined, refined.iter().map(|s| *s.direction).collect())
                 } else {
                     (all, finder.sure(all))
                 };
@@ -292,7 +292,7 @@ impl Plan {
             .collect();
         let covariance = single_snapshot(&amplitudes);
         let signals = Signals { covariance: covariance.view(), noise_power, snapshots: 1 };
-        let directions: Vec<Direction> = truth.iter().map(|t| t.direction).collect();
+        let directions: Vec<Direction> = truth.iter().map(|t| *t.direction).collect();
         match deterministic_bound(&self.array, &directions, &signals) {
             Ok(bound) => bound.azimuth_rad.iter().map(|sigma| sigma.to_degrees()).collect(),
             Err(_) => vec![f64::INFINITY; truth.len()],

@@ -64,7 +64,7 @@ impl Finder {
 
     /// Directions that count where there is no sweep: of a network those it is sure enough of.
     pub(crate) fn sure(&self, sources: &[Source]) -> Vec<Direction> {
-        self.sure_sources(sources).map(|s| s.direction).collect()
+        self.sure_sources(sources).map(|s| *s.direction).collect()
     }
 
     /// The sources of these directions.
@@ -228,7 +228,7 @@ mod tests {
     /// Azimuths that a method finds of one target at the end of the sector, deg.
     fn found(name: &str, array: &Array, azimuth_rad: f64, trial: u64) -> Vec<f64> {
         let direction = Direction::azimuth(azimuth_rad);
-        let target = Target { direction, ..Target::default() };
+        let target = Target { direction: direction.into(), ..Target::default() };
         let options = SnapshotOptions {
             scene: Scene::Given(vec![target]),
             snr_db: 30.0,

@@ -28,7 +28,42 @@ pub struct EndToEnd {
     /// of whole degrees do from 0. Errors are of these degrees.
     pub centre_deg: f64,
     /// Detection and regions.
+    #[serde(with = "in_records")]
     pub regions: RegionChainOptions,
+}
+
+/// Serde functions for stored records, in which the region size is named `..size`.
+mod in_records {
+    use boresight_pipeline::regions::RegionChainOptions;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de, ser};
+    use serde_json::Value;
+
+    const STORED: &str = "..size";
+    const OWN: &str = "size";
+
+    pub fn serialize<S: Serializer>(
+        options: &RegionChainOptions,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let value = serde_json::to_value(options).map_err(ser::Error::custom)?;
+        renamed(value, OWN, STORED).serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<RegionChainOptions, D::Error> {
+        let value = renamed(Value::deserialize(deserializer)?, STORED, OWN);
+        serde_json::from_value(value).map_err(de::Error::custom)
+    }
+
+    fn renamed(mut value: Value, from: &str, to: &str) -> Value {
+        if let Value::Object(fields) = &mut value
+            && let Some(inner) = fields.remove(from)
+        {
+            fields.insert(to.into(), inner);
+        }
+        value
+    }
 }
 
 impl EndToEnd {
@@ -146,5 +181,25 @@ impl Plan {
             }
         }
         Ok(record)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[derive(Debug, PartialEq, Serialize, Deserialize)]
+    struct Stored(#[serde(with = "in_records")] RegionChainOptions);
+
+    #[test]
+    fn records_name_the_region_size_as_stored_records_do() {
+        let mut options = RegionChainOptions::default();
+        options.size.bins += 2;
+        let stored = Stored(options);
+        let value = serde_json::to_value(&stored).unwrap();
+        assert_eq!(value["..size"]["bins"], options.size.bins);
+        assert!(value.get("size").is_none());
+        assert_eq!(serde_json::from_value::<Stored>(value).unwrap(), stored);
     }
 }

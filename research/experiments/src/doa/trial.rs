@@ -375,7 +375,7 @@ impl Plan {
             let rate_mps = if moves { random.uniform(-MOST_MPS, MOST_MPS) } else { 0.0 };
             echoes.push(CubeTarget {
                 range_m,
-                direction,
+                direction: direction.into(),
                 power_db,
                 rate_mps,
                 ..CubeTarget::default()

@@ -127,7 +127,7 @@ impl Plan {
         let mut estimators = self.estimators()?;
         let mut methods = vec![Found::default(); estimators.len()];
         for (scene, truth) in scenes.axis_iter(Axis(0)).zip(&truths) {
-            let mut truth: Vec<Direction> = truth.iter().map(|target| target.direction).collect();
+            let mut truth: Vec<Direction> = truth.iter().map(|target| *target.direction).collect();
             truth.sort_by(|a, b| a.azimuth_rad.total_cmp(&b.azimuth_rad));
             let bound_deg2 = self.bound_deg2(&truth, snapshots, snr_db)?;
             let matrix = sample_covariance(scene);

@@ -93,7 +93,7 @@ impl Plan {
             let middle = random.uniform(-MIDDLE_RAD, MIDDLE_RAD).sin();
             let truth = [-0.5, 0.5].map(|side| middle + side * separation);
             let targets = truth.map(|sine| Target {
-                direction: Direction::azimuth(sine.clamp(-1.0, 1.0).asin()),
+                direction: Direction::azimuth(sine.clamp(-1.0, 1.0).asin()).into(),
                 ..Target::default()
             });
             let simulator = SnapshotSimulator::new(

@@ -87,7 +87,7 @@ fn put_on_grid(source: &mut Source, batch: &BatchEstimate, trial: usize) {
     let after = azimuths.partition_point(|&azimuth| azimuth < source.direction.azimuth_rad);
     let beside = after.saturating_sub(2)..(after + 2).min(azimuths.len());
     if let Some(highest) = beside.max_by(|&a, &b| values[a].total_cmp(&values[b])) {
-        source.direction = Direction::azimuth(azimuths[highest]);
+        source.direction = Direction::azimuth(azimuths[highest]).into();
         source.power = f64::from(values[highest]);
     }
 }
@@ -257,7 +257,7 @@ impl Plan {
         let covariance = uncorrelated(&powers);
         let noise_power = db_to_power(-condition.snr_db);
         let signals = Signals { covariance: covariance.view(), noise_power, snapshots: 1 };
-        let directions: Vec<Direction> = truth.iter().map(|t| t.direction).collect();
+        let directions: Vec<Direction> = truth.iter().map(|t| *t.direction).collect();
         let bound = deterministic_bound(&self.array, &directions, &signals)?;
         Ok(bound.azimuth_rad.last().map_or(f64::NAN, |sigma| sigma.to_degrees().powi(2)))
     }

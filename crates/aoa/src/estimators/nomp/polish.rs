@@ -58,7 +58,7 @@ impl Nomp {
                 seed += 1;
             }
         }
-        sources.retain(|source| self.sees(source.direction));
+        sources.retain(|source| self.sees(*source.direction));
         sources
     }
 
