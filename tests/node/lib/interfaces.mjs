@@ -1,37 +1,38 @@
-// The fields that web/lib/**/types.ts and the generated types declare, so that tests can hold results against them.
+// The fields of results by the generated JSON Schemas, so that tests can hold results against them.
 import assert from 'node:assert/strict';
-import { readdirSync, readFileSync } from 'node:fs';
-import { basename } from 'node:path';
+import { readFileSync } from 'node:fs';
 
-const folder = new URL('../../../web/lib/', import.meta.url);
-const types = readdirSync(folder, { recursive: true }).filter((name) => basename(name) === 'types.ts');
-const source = [...types, 'generated/options.ts', 'generated/results.ts']
-  .map((name) => readFileSync(new URL(name, folder), 'utf8'))
-  .join('\n');
+const folder = new URL('../../../web/lib/generated/', import.meta.url);
+const definitions = ['schema.json', 'results-schema.json'].map(
+  (name) => JSON.parse(readFileSync(new URL(name, folder), 'utf8')).$defs,
+);
 
-/** Interface -> { required, optional } field names, with those of the interfaces it extends. */
-export const interfaces = new Map();
-for (const [, name, parent, body] of source.matchAll(
-  /^export interface (\w+)(?: extends (\w+))? \{\n([\s\S]*?)^\}/gm,
-)) {
-  const fields = [...body.matchAll(/^ {2}(?:readonly )?(\w+)(\??):/gm)];
-  const of = (mark) => fields.filter(([, , optional]) => optional === mark).map(([, field]) => field);
-  interfaces.set(name, { parent, required: of(''), optional: of('?') });
+/** The JSON Schema of each type, by name. */
+export const schemas = Object.assign({}, ...definitions);
+
+/** Fields of types that are written in TypeScript and not generated: required, then optional ones. */
+const written = {
+  ComplexData: [['data', 'shape']],
+  DriveFrame: [
+    ['sensor', 'timeS', 'azimuthDeg', 'rangeRateMps', 'yawRateDegps'],
+    ['speedMps', 'rangeM', 'rcsDbsm', 'label'],
+  ],
+  ImageFrame: [['map', 'cells', 'estimates']],
+  ImagePlan: [['chain', 'estimator', 'from', 'grid']],
+  NetworkInfo: [['id', 'kind', 'name', 'method', 'inputs', 'outputs', 'card', 'readyMs']],
+  ScanMotion: [['yawRateDegps', 'speedMps']],
+};
+
+/** Required and optional fields of a type. */
+function fieldsOf(name) {
+  if (written[name]) return written[name];
+  const { properties, required = [] } = schemas[name] ?? assert.fail(`no type ${name}`);
+  return [required, Object.keys(properties)];
 }
-/** Adds to an interface the fields of those that it extends, which come first. */
-function extend(name) {
-  const { parent, ...own } = interfaces.get(name);
-  if (!interfaces.has(parent)) return;
-  extend(parent);
-  const { required, optional } = interfaces.get(parent);
-  own.required.push(...required.filter((field) => !own.required.includes(field)));
-  own.optional.push(...optional.filter((field) => !own.optional.includes(field)));
-}
-for (const name of interfaces.keys()) extend(name);
 
-/** Asserts that an object has the fields of an interface, all required ones and no others. */
+/** Asserts that an object has the fields of a type, all required ones and no others. */
 export function assertShape(value, name) {
-  const { required, optional } = interfaces.get(name) ?? assert.fail(`no interface ${name}`);
+  const [required, optional = []] = fieldsOf(name);
   const keys = Object.keys(value);
   for (const field of required) assert.ok(keys.includes(field), `${name} lacks ${field}`);
   for (const key of keys)
