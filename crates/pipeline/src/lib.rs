@@ -20,7 +20,7 @@
 //! let target = CubeTarget {
 //!     range_m: 5.0,
 //!     rate_mps: -1.0,
-//!     direction: Direction::azimuth(20_f64.to_radians()),
+//!     direction: Direction::azimuth(20_f64.to_radians()).into(),
 //!     power_db: 0.0,
 //!     phase_rad: None,
 //! };

@@ -10,7 +10,7 @@
 //!
 //! let direction = Direction::azimuth(10_f64.to_radians());
 //! let options = SnapshotOptions {
-//!     scene: Scene::Given(vec![Target { direction, ..Target::default() }]),
+//!     scene: Scene::Given(vec![Target { direction: direction.into(), ..Target::default() }]),
 //!     snr_db: 20.0,
 //!     snapshots: 4,
 //!     fluctuation: Fluctuation::ComplexNormal,
@@ -20,7 +20,7 @@
 //! let simulator = SnapshotSimulator::new(&Array::ula(8)?, &options)?;
 //! let (snapshots, truth) = simulator.scene(3)?;
 //! assert_eq!(snapshots.dim(), (8, 4));
-//! assert_eq!(truth[0].direction, direction);
+//! assert_eq!(*truth[0].direction, direction);
 //!
 //! // A scene is told by the seed and its number, whatever was drawn before.
 //! assert_eq!(simulator.scenes(2, 3)?.values.index_axis(ndarray::Axis(0), 1), snapshots);
