@@ -13,6 +13,7 @@ await main(async () => {
   const graph = workspaceGraph(JSON.parse(text));
   const folders = readdirSync(join(root, 'crates'));
   const sources = folders.map((crate) => [crate, join(root, 'crates', crate, 'src')]);
+  sources.push(['experiments', join(root, 'research', 'experiments', 'src')]);
   const modules = sources.filter(([, folder]) => existsSync(folder));
   const read = modules.map(([crate, folder]) => [crate, sourcesOf(folder)]);
   const found = [...problems(graph), ...read.flatMap(([crate, files]) => moduleProblems(crate, files))];

@@ -1,6 +1,6 @@
 //! Scenes of targets that stand apart.
 
-use crate::EvaluateError;
+use crate::error::EvaluateError;
 use boresight_core::{Array, Complex64, Direction, Random};
 use boresight_simulate::{Scene, SnapshotOptions, SnapshotSimulator, Target};
 use ndarray::Array3;

@@ -3,7 +3,7 @@
 //! Each network's records are a file of their own, beside that of all methods: a network that was trained again is
 //! run again, the methods are not.
 
-use crate::EvaluateError;
+use crate::error::EvaluateError;
 use boresight_core::InputError;
 use boresight_neural::{Kind, Model};
 use serde::{Deserialize, Serialize};

@@ -3,8 +3,8 @@
 use super::cell::TARGETS_WITHIN_RAD;
 use super::plain_iaa::PlainIaa;
 use super::score::{Threshold, WITHIN_RAD};
-use crate::EvaluateError;
 use crate::entrants::{Entrants, Network, REFINED};
+use crate::error::EvaluateError;
 use boresight_aoa::options::Thresholding;
 use boresight_aoa::{
     AoaError, BatchEstimate, Estimator, EstimatorOptions, Method, Source, SourceCount,

@@ -14,8 +14,8 @@ pub use report::AoaReport;
 pub use score::Score;
 pub use times::times;
 
-use crate::EvaluateError;
 use crate::entrants::{Entrants, by_entrants};
+use crate::error::EvaluateError;
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::{Array, InputError};
 use boresight_math::error::check_range;

@@ -2,7 +2,7 @@
 
 use super::cell::Plan;
 use super::{AoaExperiment, Condition};
-use crate::EvaluateError;
+use crate::error::EvaluateError;
 
 /// Snapshots that are timed together.
 const SNAPSHOTS: u64 = 128;

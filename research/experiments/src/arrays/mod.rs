@@ -9,11 +9,11 @@ pub mod report;
 
 pub use report::ArraysReport;
 
-use crate::EvaluateError;
 use crate::aoa::score::WITHIN_RAD;
 use crate::aoa::{self, Condition, cell};
 use crate::apart::half_beam;
 use crate::entrants::{Entrants, by_entrants};
+use crate::error::EvaluateError;
 use boresight_core::presets::preset;
 use boresight_core::{Array, Random};
 use boresight_math::error::check_range;

@@ -11,7 +11,7 @@ pub mod scene;
 pub use report::CalibrationReport;
 pub use scene::SceneRecord;
 
-use crate::EvaluateError;
+use crate::error::EvaluateError;
 use boresight_math::error::check_range;
 use boresight_simulate::drive::DriveProfile;
 use boresight_validate::candidates::CANDIDATES;

@@ -1,7 +1,7 @@
 //! One simulated drive.
 
 use super::{CalibrationExperiment, PROFILES};
-use crate::EvaluateError;
+use crate::error::EvaluateError;
 use boresight_core::Random;
 use boresight_core::drive::{Mounting, RADARSCENES_SENSORS};
 use boresight_mounting::CalibrationOptions;

@@ -1,7 +1,7 @@
 //! What is answered in each trial, for scores to be counted again by other means.
 
 use super::Condition;
-use super::trial::Plan;
+use super::plan::Plan;
 use boresight_validate::experiment::Tell;
 use serde_json::{Map, Value, json};
 

@@ -1,7 +1,7 @@
 //! Figures 6 to 9 of the 3D-CNN paper, as SVG.
 
 use super::report::{BOUNDS, DoaReport, PAIRS};
-use super::trial::DEVIATIONS_DEG;
+use super::tally::DEVIATIONS_DEG;
 use super::{Axis, SNRS_DB, Targets};
 
 use boresight_validate::plot::{Panel, Series, draw};

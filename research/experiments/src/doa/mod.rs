@@ -10,23 +10,27 @@
 mod answers;
 pub mod end_to_end;
 pub mod figures;
+mod flow;
+pub mod plan;
 mod region_methods;
 pub mod report;
-pub mod trial;
+pub mod tally;
+mod trial;
 
 pub use end_to_end::EndToEnd;
 pub use report::DoaReport;
 
-use crate::EvaluateError;
 use crate::entrants::{Entrants, by_entrants};
+use crate::error::EvaluateError;
 use boresight_core::presets::preset;
 use boresight_core::{Array, Waveform};
 use boresight_math::error::check_range;
 use boresight_simulate::{waveform_3dcnn_experiment, waveform_3dcnn_simulated};
 use boresight_validate::experiment::{Answered, Experiment, Tell, Trials};
+use plan::{COUNTERS, Plan};
 use region_methods::RegionMethod;
 use serde::{Deserialize, Serialize};
-use trial::{COUNTERS, DoaRecord, Plan};
+use tally::DoaRecord;
 
 /// Signal-to-noise ratios, dB: power of one target over noise power, of one sample of one chirp at one element,
 /// before any transform.
@@ -168,7 +172,7 @@ pub struct DoaExperiment {
 pub fn default_methods(setup: Setup) -> Result<Vec<String>, EvaluateError> {
     let (_, array, _) = setup.radar()?;
     let counters = COUNTERS.iter().map(|counter| counter.0.to_owned());
-    let methods = trial::candidates(&array, 1).into_iter().map(|candidate| candidate.name);
+    let methods = plan::candidates(&array, 1).into_iter().map(|candidate| candidate.name);
     let of_regions = RegionMethod::ALL.map(|method| method.name().to_owned());
     Ok(counters.chain(methods).chain(of_regions).collect())
 }

@@ -2,8 +2,8 @@
 //! have) that targets lie at whole degrees.
 
 use super::REGION;
-use super::trial::{FIELD_OF_VIEW_RAD, LARGEST_DEG};
-use crate::EvaluateError;
+use super::tally::{FIELD_OF_VIEW_RAD, LARGEST_DEG};
+use crate::error::EvaluateError;
 use boresight_aoa::{EstimatorOptions, RangeAngle, SourceCount};
 use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Complex32, Complex64, Direction};

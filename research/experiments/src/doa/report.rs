@@ -1,6 +1,7 @@
 //! From records to tables.
 
-use super::trial::{CLOSE_DEG, DEVIATIONS_DEG, DoaRecord, Plan, Tally};
+use super::plan::Plan;
+use super::tally::{CLOSE_DEG, DEVIATIONS_DEG, DoaRecord, Tally};
 use super::{Axis, Condition, DoaExperiment, SNRS_DB, Setup, Targets, figures};
 use crate::entrants::Network;
 use boresight_validate::table::{Best, Cell, Table, Tables};

@@ -6,8 +6,8 @@ pub mod report;
 
 pub use report::{ImagesReport, ImagesResult};
 
-use crate::EvaluateError;
 use crate::entrants::{Entrants, by_entrants};
+use crate::error::EvaluateError;
 use boresight_aoa::Method;
 use boresight_cli::street::{CHAIN, ImageFigures, Maker, StreetFrames};
 use boresight_core::InputError;

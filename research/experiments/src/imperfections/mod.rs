@@ -7,9 +7,9 @@ pub mod report;
 
 pub use report::ImperfectionsReport;
 
-use crate::EvaluateError;
 use crate::aoa::{self, Condition, cell};
 use crate::entrants::{Entrants, by_entrants};
+use crate::error::EvaluateError;
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_math::error::check_range;
 use boresight_validate::experiment::{Experiment, Trials};

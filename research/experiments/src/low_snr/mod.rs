@@ -9,8 +9,8 @@ pub mod trial;
 
 pub use report::LowSnrReport;
 
-use crate::EvaluateError;
 use crate::entrants::{Entrants, by_entrants};
+use crate::error::EvaluateError;
 use boresight_math::error::check_range;
 use boresight_validate::experiment::{Experiment, Trials};
 use serde::{Deserialize, Serialize};

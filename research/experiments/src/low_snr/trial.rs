@@ -1,9 +1,9 @@
 //! Trials of one condition.
 
 use super::{LowSnrExperiment, conditions};
-use crate::EvaluateError;
 use crate::apart::Drawn;
 use crate::entrants::Entrants;
+use crate::error::EvaluateError;
 use crate::told;
 use boresight_aoa::bounds::{Signals, deterministic_bound, uncorrelated};
 use boresight_aoa::{Data, Estimator};

@@ -1,11 +1,11 @@
 //! The snapshots of one condition through every method.
 
 use super::{NearFieldExperiment, POWERS_DB, RANGES};
-use crate::EvaluateError;
 use crate::aoa::finder::{Candidate, Finder, Idle};
 use crate::aoa::score::WITHIN_RAD;
 use crate::apart::{BEAMS_APART, Drawn};
 use crate::deviation::Deviation;
+use crate::error::EvaluateError;
 use boresight_aoa::refinement::Refinement;
 use boresight_aoa::{BatchEstimate, Data, EstimatorOptions, Source};
 use boresight_core::array::Position;

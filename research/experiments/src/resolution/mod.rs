@@ -12,7 +12,7 @@ pub mod trial;
 
 pub use report::ResolutionReport;
 
-use crate::EvaluateError;
+use crate::error::EvaluateError;
 use boresight_math::error::check_range;
 use boresight_validate::experiment::{Experiment, Trials};
 use serde::{Deserialize, Serialize};

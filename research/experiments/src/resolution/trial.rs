@@ -2,7 +2,7 @@
 
 use super::limit::beam_width;
 use super::{Condition, ResolutionExperiment};
-use crate::EvaluateError;
+use crate::error::EvaluateError;
 use crate::told::{self, Candidate};
 use boresight_aoa::{Data, Estimator};
 use boresight_core::presets::preset;

@@ -6,9 +6,9 @@
 //! published take, on an array on a lattice by transforms, on any other by products with steering vectors.
 
 use super::trial::Line;
-use crate::EvaluateError;
 use crate::aoa::finder::Finder;
 use crate::aoa::plain_iaa;
+use crate::error::EvaluateError;
 use boresight_aoa::{EstimatorOptions, Method};
 use boresight_core::Array;
 

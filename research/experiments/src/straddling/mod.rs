@@ -14,8 +14,8 @@ pub mod trial;
 pub use report::StraddlingReport;
 pub use times::times;
 
-use crate::EvaluateError;
 use crate::entrants::{Entrants, by_entrants};
+use crate::error::EvaluateError;
 use boresight_math::error::check_range;
 use boresight_validate::experiment::{Experiment, Trials};
 use serde::{Deserialize, Serialize};

@@ -2,9 +2,9 @@
 
 use super::trial::{Plan, angle_options};
 use super::{CONDITIONS, GRIDS, StraddlingExperiment};
-use crate::EvaluateError;
 use crate::aoa::finder::Finder;
 use crate::aoa::times::time_of;
+use crate::error::EvaluateError;
 use boresight_aoa::options::{IaaForm, IaaOptions, Thresholding};
 use boresight_aoa::refinement::Refinement;
 use boresight_aoa::{EstimatorOptions, Method};

@@ -2,11 +2,11 @@
 
 use super::cost::operations;
 use super::{CONDITIONS, Condition, GRIDS, StraddlingExperiment};
-use crate::EvaluateError;
 use crate::aoa::finder::{Candidate, Finder, Idle};
 use crate::aoa::score::WITHIN_RAD;
 use crate::apart::{BEAMS_APART, Drawn};
 use crate::deviation::Deviation;
+use crate::error::EvaluateError;
 use boresight_aoa::bounds::{Signals, deterministic_bound, uncorrelated};
 use boresight_aoa::refinement::Refinement;
 use boresight_aoa::{
