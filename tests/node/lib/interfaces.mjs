@@ -12,7 +12,13 @@ export const schemas = Object.assign({}, ...definitions);
 
 /** Fields of types that are written in TypeScript and not generated: required, then optional ones. */
 const written = {
+  AngleHistory: [['timeS', 'angleDeg', 'sigmaDeg']],
+  CalibratedFrames: [
+    ['scan', 'timeS', 'verdict', 'vxMps', 'vyMps', 'angleDeg', 'angleSigmaDeg', 'weight', 'inliers'],
+    ['weights'],
+  ],
   ComplexData: [['data', 'shape']],
+  DriveCalibration: [['sensor', 'method', 'mounting', 'result', 'outlook', 'history', 'frames']],
   DriveFrame: [
     ['sensor', 'timeS', 'azimuthDeg', 'rangeRateMps', 'yawRateDegps'],
     ['speedMps', 'rangeM', 'rcsDbsm', 'label'],
