@@ -30,9 +30,9 @@ after(async () => {
  * more. If it passes then, the closing lines of the run name it (`passedOnRetry` in
  * scripts/lib/summary.mjs).
  */
-export function retriedTest(name, { timeout = 90_000, skip = skipWithoutBrowser }, body) {
+export function retriedTest(name, { timeout = 90_000 }, body) {
   const attempts = process.env.CI ? 2 : 1;
-  test(name, { skip, timeout: attempts * timeout }, async (context) => {
+  test(name, { skip: skipWithoutBrowser, timeout: attempts * timeout }, async (context) => {
     for (let attempt = 1; ; attempt++) {
       try {
         await body(context);
