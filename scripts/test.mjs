@@ -26,6 +26,12 @@ const { scripts } = JSON.parse(readFileSync(join(root, 'package.json'), 'utf8'))
 // A step that hangs is ended and has failed.
 const longestStepMs = 30 * 60_000;
 const clippy = (...args) => ['cargo', 'clippy', '--quiet', ...args, '--', '-D', 'warnings'];
+/** A step that only cargo's compiler waits for: such steps run one after another beside the other steps. */
+const beside = (step) => ({ ...step, beside: true });
+
+/** A step whose pages or measurements need both cores: it waits for the steps beside the others. */
+const alone = (step) => ({ ...step, alone: true });
+
 /** Tests of the bindings in Node, with the runner set in .cargo/config.toml. */
 const wasmTests = {
   name: 'wasm',
@@ -37,7 +43,7 @@ const wasmTests = {
  * Tests of the network bindings. They are separate because they compile tract for WebAssembly in the test profile. The runner
  * writes CommonJS into a temporary folder, which needs a package.json that says so.
  */
-const wasmNeuralTests = {
+const wasmNeuralTests = beside({
   name: 'wasm-neural',
   command: () => {
     const folder = join(root, 'target', 'wasm-tests');
@@ -47,7 +53,7 @@ const wasmNeuralTests = {
   },
   variables: { TMPDIR: join(root, 'target', 'wasm-tests') },
   counts: cargoCounts,
-};
+});
 const script = (name) => ({ name, command: [node, `scripts/${name}.mjs`], counts: checkCounts });
 
 /** Test files of a folder, named one by one: what a folder means to `node --test` depends on its version. */
@@ -75,11 +81,11 @@ const npm = (name, ...args) => ({
 
 const build = { name: 'build', work: buildPackage, counts: checkCounts };
 
-/** Does not depend on set-up or build, so it runs in parallel with them. */
-const rustTests = { name: 'rust', command: [node, 'scripts/test-rust.mjs'], counts: cargoCounts };
+/** Needs no set-up either. */
+const rustTests = beside({ name: 'rust', command: [node, 'scripts/test-rust.mjs'], counts: cargoCounts });
 
 /** Crates with tests that have a smaller default size (tests/support/size.rs). */
-const fullRustTests = {
+const fullRustTests = beside({
   name: 'rust-full',
   command: [
     node,
@@ -89,7 +95,7 @@ const fullRustTests = {
   ],
   variables: { BORESIGHT_FULL: '1' },
   counts: cargoCounts,
-};
+});
 
 /** The test in Node that has a smaller default size. */
 const fullNodeTests = {
@@ -114,28 +120,30 @@ const check = [
   build,
   { name: 'format', command: ['cargo', 'fmt', '--all', '--check'], counts: checkCounts },
   { name: 'lint', command: ['biome', 'check', '--error-on-warnings'], counts: checkCounts },
-  { name: 'clippy', command: clippy('--workspace', '--all-targets'), counts: checkCounts },
+  beside({ name: 'clippy', command: clippy('--workspace', '--all-targets'), counts: checkCounts }),
   // Core and drives are checked for WebAssembly, with the profile of their build, so that compiled dependencies are shared.
-  ...[core, drives].map((module) => ({
-    name: `clippy-${module.feature}`,
-    command: clippy(...cargoArguments(module)),
-    counts: checkCounts,
-  })),
+  ...[core, drives].map((module) =>
+    beside({
+      name: `clippy-${module.feature}`,
+      command: clippy(...cargoArguments(module)),
+      counts: checkCounts,
+    }),
+  ),
   // Nothing of the module of networks differs between WebAssembly and the host, whose dependencies `clippy` has compiled.
-  { name: 'clippy-neural', command: clippy(...crateArguments(neural)), counts: checkCounts },
-  {
+  beside({ name: 'clippy-neural', command: clippy(...crateArguments(neural)), counts: checkCounts }),
+  beside({
     // Without libFuzzer, which needs a C++ compiler and is linked only for fuzzing.
     name: 'clippy-fuzz',
     command: clippy('--manifest-path', 'fuzz/Cargo.toml', '--locked', '--features', 'network,fleet'),
     variables: { CUSTOM_LIBFUZZER_PATH: '/none/libnone.a', CARGO_TARGET_DIR: join(root, 'target') },
     counts: checkCounts,
-  },
-  {
+  }),
+  beside({
     name: 'doc',
     command: ['cargo', 'doc', '--no-deps', '--quiet'],
     variables: { RUSTDOCFLAGS: '-D warnings' },
     counts: checkCounts,
-  },
+  }),
   script('check-dependencies'),
   script('check-licences'),
   script('check-workflows'),
@@ -153,16 +161,16 @@ const rest = [
   wasmNeuralTests,
   { name: 'build-reference', work: buildReference, counts: checkCounts },
   { name: 'build-demo', work: buildDemo, counts: checkCounts },
+  beside(npm('test:research')),
   { name: 'packaging', command: () => nodeTests('tests/packaging', '--test-concurrency=1'), counts: nodeCounts },
-  { name: 'browser', command: browserTests, counts: nodeCounts },
-  npm('test:research'),
-  npm('check:lighthouse', '--accessibility'),
   npm('test:interop'),
   npm('test:python'),
   npm('test:notebooks'),
   npm('test:training'),
+  npm('check:lighthouse', '--accessibility'),
+  alone({ name: 'browser', command: browserTests, counts: nodeCounts }),
   // Ratios within one run, against those of an earlier one, with room for three times the noise.
-  npm('bench', '--quick', '--against', 'bench/baseline.json'),
+  alone(npm('bench', '--quick', '--against', 'bench/baseline.json')),
 ];
 
 const tiers = { test, check, all: [...new Set([...test, ...check, ...rest])] };
@@ -186,11 +194,11 @@ function chosenSteps(args) {
   return tiers.all.filter(({ name }) => names.includes(name));
 }
 
-/** Runs a step. Its output is shown at once, or at its end if it runs in the `background`. */
-async function runStep({ name, command, work, variables, counts }, { background = false } = {}) {
+/** Runs a step. Its output is shown at once, or at its end if it runs `beside` others. */
+async function runStep({ name, command, work, variables, counts, beside = false }) {
   const started = performance.now();
   const title = `\n=== ${name}`;
-  if (!background) console.log(title);
+  if (!beside) console.log(title);
   let result;
   if (work) {
     result = await work().then(
@@ -203,8 +211,8 @@ async function runStep({ name, command, work, variables, counts }, { background 
   } else {
     const [program, ...args] = typeof command === 'function' ? command() : command;
     const options = { timeout: longestStepMs, env: { ...environment, ...variables } };
-    result = await (background ? runKeeping : runTee)(program, args, options);
-    if (background) console.log(`${title}\n${result.text}`);
+    result = await (beside ? runKeeping : runTee)(program, args, options);
+    if (beside) console.log(`${title}, beside the steps above\n${result.text}`);
   }
   const counted = counts(result.text, result.ok);
   // A step that fails without a failed test (it did not compile, it was ended) is a failure too;
@@ -219,16 +227,33 @@ async function runStep({ name, command, work, variables, counts }, { background 
   };
 }
 
+/** Runs steps one after another; `ready` is what all but the Rust tests wait for. */
+async function runSteps(steps, ready) {
+  const results = [];
+  for (const step of steps) {
+    if (step !== rustTests) await ready(step);
+    results.push(await runStep(step));
+  }
+  return results;
+}
+
 await main(async () => {
   const chosen = chosenSteps(process.argv.slice(2));
   const inCi = Boolean(process.env.CI);
   const started = performance.now();
-  const early = chosen.length > 1 && chosen.includes(rustTests) ? runStep(rustTests, { background: true }) : undefined;
-  if (early) console.log('rust: runs in parallel with the other steps; its output is shown at its end');
-  await setup({ wasmPack: chosen.includes(wasmNeuralTests) });
-  const results = [];
-  for (const step of chosen) if (!early || step !== rustTests) results.push(await runStep(step));
-  if (early) results.unshift(await early);
+  const others = chosen.filter((step) => !step.beside);
+  // With nothing to run beside, output is shown at once.
+  const queue = others.length > 0 ? chosen.filter((step) => step.beside) : [];
+  if (queue.length > 0) {
+    const names = queue.map(({ name }) => name).join(', ');
+    console.log(`${names}: run beside the other steps; their output is shown at their end`);
+  }
+  const prepared = setup({ wasmPack: chosen.includes(wasmNeuralTests) });
+  const queued = runSteps(queue, () => prepared);
+  const inTurn = others.length > 0 ? others : chosen.map((step) => ({ ...step, beside: false }));
+  const turns = runSteps(inTurn, (step) => Promise.all([prepared, step.alone && queued]));
+  const finished = (await Promise.all([turns, queued])).flat();
+  const results = chosen.map(({ name }) => finished.find((result) => result.name === name));
   const total = (key) => results.reduce((sum, result) => sum + result[key], 0);
   if (!findBrowser()) console.log(`\nBrowser tests did not run: ${browserMissing}`);
   for (const name of results.flatMap(({ retried }) => retried)) console.log(`\nPassed only on the second try: ${name}`);
