@@ -26,10 +26,10 @@ const { scripts } = JSON.parse(readFileSync(join(root, 'package.json'), 'utf8'))
 // A step that hangs is ended and has failed.
 const longestStepMs = 30 * 60_000;
 const clippy = (...args) => ['cargo', 'clippy', '--quiet', ...args, '--', '-D', 'warnings'];
-/** A step that only cargo's compiler waits for: such steps run one after another beside the other steps. */
-const beside = (step) => ({ ...step, beside: true });
+/** A step that compiles Rust code. Such steps run one after another in the background, in parallel with the others. */
+const inBackground = (step) => ({ ...step, background: true });
 
-/** A step whose pages or measurements need both cores: it waits for the steps beside the others. */
+/** A step that needs both cores, for pages or for measurements. It waits until the background is idle. */
 const alone = (step) => ({ ...step, alone: true });
 
 /** Tests of the bindings in Node, with the runner set in .cargo/config.toml. */
@@ -43,7 +43,7 @@ const wasmTests = {
  * Tests of the network bindings. They are separate because they compile tract for WebAssembly in the test profile. The runner
  * writes CommonJS into a temporary folder, which needs a package.json that says so.
  */
-const wasmNeuralTests = beside({
+const wasmNeuralTests = inBackground({
   name: 'wasm-neural',
   command: () => {
     const folder = join(root, 'target', 'wasm-tests');
@@ -82,10 +82,10 @@ const npm = (name, ...args) => ({
 const build = { name: 'build', work: buildPackage, counts: checkCounts };
 
 /** Needs no set-up either. */
-const rustTests = beside({ name: 'rust', command: [node, 'scripts/test-rust.mjs'], counts: cargoCounts });
+const rustTests = inBackground({ name: 'rust', command: [node, 'scripts/test-rust.mjs'], counts: cargoCounts });
 
 /** Crates with tests that have a smaller default size (tests/support/size.rs). */
-const fullRustTests = beside({
+const fullRustTests = inBackground({
   name: 'rust-full',
   command: [
     node,
@@ -120,25 +120,25 @@ const check = [
   build,
   { name: 'format', command: ['cargo', 'fmt', '--all', '--check'], counts: checkCounts },
   { name: 'lint', command: ['biome', 'check', '--error-on-warnings'], counts: checkCounts },
-  beside({ name: 'clippy', command: clippy('--workspace', '--all-targets'), counts: checkCounts }),
+  inBackground({ name: 'clippy', command: clippy('--workspace', '--all-targets'), counts: checkCounts }),
   // Core and drives are checked for WebAssembly, with the profile of their build, so that compiled dependencies are shared.
   ...[core, drives].map((module) =>
-    beside({
+    inBackground({
       name: `clippy-${module.feature}`,
       command: clippy(...cargoArguments(module)),
       counts: checkCounts,
     }),
   ),
   // Nothing of the module of networks differs between WebAssembly and the host, whose dependencies `clippy` has compiled.
-  beside({ name: 'clippy-neural', command: clippy(...crateArguments(neural)), counts: checkCounts }),
-  beside({
+  inBackground({ name: 'clippy-neural', command: clippy(...crateArguments(neural)), counts: checkCounts }),
+  inBackground({
     // Without libFuzzer, which needs a C++ compiler and is linked only for fuzzing.
     name: 'clippy-fuzz',
     command: clippy('--manifest-path', 'fuzz/Cargo.toml', '--locked', '--features', 'network,fleet'),
     variables: { CUSTOM_LIBFUZZER_PATH: '/none/libnone.a', CARGO_TARGET_DIR: join(root, 'target') },
     counts: checkCounts,
   }),
-  beside({
+  inBackground({
     name: 'doc',
     command: ['cargo', 'doc', '--no-deps', '--quiet'],
     variables: { RUSTDOCFLAGS: '-D warnings' },
@@ -161,7 +161,7 @@ const rest = [
   wasmNeuralTests,
   { name: 'build-reference', work: buildReference, counts: checkCounts },
   { name: 'build-demo', work: buildDemo, counts: checkCounts },
-  beside(npm('test:research')),
+  inBackground(npm('test:research')),
   { name: 'packaging', command: () => nodeTests('tests/packaging', '--test-concurrency=1'), counts: nodeCounts },
   npm('test:interop'),
   npm('test:python'),
@@ -194,11 +194,11 @@ function chosenSteps(args) {
   return tiers.all.filter(({ name }) => names.includes(name));
 }
 
-/** Runs a step. Its output is shown at once, or at its end if it runs `beside` others. */
-async function runStep({ name, command, work, variables, counts, beside = false }) {
+/** Runs a step. Its output is shown at once, or at its end if it runs in the background. */
+async function runStep({ name, command, work, variables, counts, background = false }) {
   const started = performance.now();
   const title = `\n=== ${name}`;
-  if (!beside) console.log(title);
+  if (!background) console.log(title);
   let result;
   if (work) {
     result = await work().then(
@@ -211,8 +211,8 @@ async function runStep({ name, command, work, variables, counts, beside = false 
   } else {
     const [program, ...args] = typeof command === 'function' ? command() : command;
     const options = { timeout: longestStepMs, env: { ...environment, ...variables } };
-    result = await (beside ? runKeeping : runTee)(program, args, options);
-    if (beside) console.log(`${title}, beside the steps above\n${result.text}`);
+    result = await (background ? runKeeping : runTee)(program, args, options);
+    if (background) console.log(`${title}, in the background of the steps above\n${result.text}`);
   }
   const counted = counts(result.text, result.ok);
   // A step that fails without a failed test (it did not compile, it was ended) is a failure too;
@@ -227,7 +227,7 @@ async function runStep({ name, command, work, variables, counts, beside = false 
   };
 }
 
-/** Runs steps one after another; `ready` is what all but the Rust tests wait for. */
+/** Runs steps one after another. All but the Rust tests wait for `ready`. */
 async function runSteps(steps, ready) {
   const results = [];
   for (const step of steps) {
@@ -241,16 +241,16 @@ await main(async () => {
   const chosen = chosenSteps(process.argv.slice(2));
   const inCi = Boolean(process.env.CI);
   const started = performance.now();
-  const others = chosen.filter((step) => !step.beside);
-  // With nothing to run beside, output is shown at once.
-  const queue = others.length > 0 ? chosen.filter((step) => step.beside) : [];
+  const others = chosen.filter((step) => !step.background);
+  // Without other steps, output is shown at once.
+  const queue = others.length > 0 ? chosen.filter((step) => step.background) : [];
   if (queue.length > 0) {
     const names = queue.map(({ name }) => name).join(', ');
-    console.log(`${names}: run beside the other steps; their output is shown at their end`);
+    console.log(`${names}: run in the background; the output of each is shown at its end`);
   }
   const prepared = setup({ wasmPack: chosen.includes(wasmNeuralTests) });
   const queued = runSteps(queue, () => prepared);
-  const inTurn = others.length > 0 ? others : chosen.map((step) => ({ ...step, beside: false }));
+  const inTurn = others.length > 0 ? others : chosen.map((step) => ({ ...step, background: false }));
   const turns = runSteps(inTurn, (step) => Promise.all([prepared, step.alone && queued]));
   const finished = (await Promise.all([turns, queued])).flat();
   const results = chosen.map(({ name }) => finished.find((result) => result.name === name));

@@ -8,7 +8,7 @@ import { parseArgs } from 'node:util';
 import { cardsOf, cards as shippedCards } from './cards.mjs';
 import { endToEndTables } from './end-to-end.mjs';
 import { root } from '../../scripts/lib/paths.mjs';
-import { main, run } from '../../scripts/lib/run.mjs';
+import { main, run, runKeeping } from '../../scripts/lib/run.mjs';
 import { withTables } from './tables.mjs';
 
 /** Networks that answer a snapshot of the array lrr48. */
@@ -20,7 +20,8 @@ const REGIONS = { kinds: ['counting', 'cnn3d', 'dnn'], waveform: '3dcnn-simulate
 
 /**
  * `networks` says which take part, `document` which page of research/results has the tables, `shown` that the demo shows the numbers.
- * `figures` begins the names that figures have in research/results/figures; without it they stay.
+ * `figures` begins the names that figures have in research/results/figures; without it they stay. `printed` says that the
+ * tables are what the command prints, without records.
  */
 const EXPERIMENTS = [
   {
@@ -69,6 +70,22 @@ const EXPERIMENTS = [
     document: 'arrays',
     networks: { kinds: ['aaetr'], array: 'any' },
     settings: ['--trials', '500', '--seed', '0'],
+  },
+  {
+    name: 'hard',
+    experiment: 'hard',
+    document: 'hard',
+    networks: { kinds: ['aaetr'] },
+    settings: ['--trials', '1000', '--seed', '0'],
+    figures: '',
+  },
+  {
+    name: 'hard-times',
+    experiment: 'aoa',
+    document: 'hard',
+    networks: { kinds: ['aaetr'] },
+    settings: ['--times', '--methods', 'iaa,plain-iaa,plain-iaa-half-degree,iaa+refined,nomp'],
+    printed: true,
   },
   {
     name: 'low-snr',
@@ -152,6 +169,17 @@ function forgetOld(folder, name) {
   }
 }
 
+/** What a command prints. */
+async function outputOf(command, args) {
+  let printed = '';
+  const keep = (piece, stream) => {
+    if (stream === 'stdout') printed += piece;
+  };
+  const { ok, text } = await runKeeping(command, args, {}, keep);
+  if (!ok) throw new Error(text);
+  return printed;
+}
+
 /** Settings with at most so many trials. */
 function limited(settings, most) {
   return settings.map((value, i) => (settings[i - 1] === '--trials' && most < Number(value) ? String(most) : value));
@@ -178,13 +206,18 @@ await main(async () => {
   const most = Number(values.trials ?? Number.POSITIVE_INFINITY);
   const folderOf = (name) => join(root, 'target', 'experiments', values.trials ? `${name}-${values.trials}` : name);
   const results = join(root, 'research', 'results');
-  for (const { name, experiment, document, networks, settings, figures, shown } of wanted) {
+  for (const { name, experiment, document, networks, settings, figures, shown, printed } of wanted) {
     const folder = folderOf(name);
-    forgetOld(folder, experiment);
     const options = [...limited(settings, most), ...cardsOf(networks, cards).flatMap(({ onnx }) => ['--model', onnx])];
-    await run(command, [...before, experiment, ...options, '--out', folder]);
     const page = join(results, `${document}.md`);
-    const tables = { [name]: readFileSync(join(folder, `${experiment}.md`), 'utf8') };
+    const tables = {};
+    if (printed) {
+      tables[name] = await outputOf(command, [...before, experiment, ...options]);
+    } else {
+      forgetOld(folder, experiment);
+      await run(command, [...before, experiment, ...options, '--out', folder]);
+      tables[name] = readFileSync(join(folder, `${experiment}.md`), 'utf8');
+    }
     if (FLOW.includes(name)) Object.assign(tables, flowTables(folderOf));
     writeFileSync(page, withTables(readFileSync(page, 'utf8'), tables));
     if (shown)

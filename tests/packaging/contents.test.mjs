@@ -41,9 +41,9 @@ test('each script has its types, and nothing else is in the package', () => {
 
 test('the package is small: one core wasm and little besides', () => {
   assert.equal(files.filter((name) => name === 'dist/wasm/boresight_bg.wasm').length, 1);
-  // Of these, the module of networks has some 4.1 MB and once more in its single file, the networks 1.5 MB, each of the two
-  // other single files 1.5 MB; none is loaded unless asked for.
-  assert.ok(size < 15_000_000, `${size} bytes packed`);
+  // The module of networks takes some 4.1 MB, and again in its single file; the networks 3.7 MB, of which the two of AAETR 2.2;
+  // each of the two other single files 1.5 MB. None is loaded unless asked for.
+  assert.ok(size < 17_200_000, `${size} bytes packed`);
 });
 
 test('the licences of what is bundled are in the package', () => {

@@ -38,14 +38,25 @@ before(async () => {
       'neural.mjs': `
         import { readFileSync } from 'node:fs';
         import { fileURLToPath } from 'node:url';
+        import { initSync, simulateSnapshots } from 'boresight';
         import { Network, initNeuralSync } from 'boresight/neural';
         import { createPool } from 'boresight/worker';
         const file = (name) => readFileSync(fileURLToPath(import.meta.resolve('boresight/' + name)));
+        initSync(file('boresight.wasm'));
         initNeuralSync(file('boresight_neural.wasm'));
-        const model = { onnx: file('models/learned-pursuit.onnx'), card: String(file('models/learned-pursuit.json')) };
-        const network = new Network(model.onnx, { card: model.card });
+        const models = ['aaetr-any', 'aaetr-lrr48', 'learned-pursuit'].map((name) => ({
+          onnx: file('models/' + name + '.onnx'),
+          card: String(file('models/' + name + '.json')),
+        }));
+        const targets = [{ azimuthDeg: -5 }, { azimuthDeg: 12 }];
+        const { data, shape } = simulateSnapshots({ array: 'lrr48', targets, snrDb: 30, seed: 4 });
         const pool = createPool({ workers: 1 });
-        console.log(network.kind, (await pool.loadNetwork(model)).name);
+        for (const model of models) {
+          const network = new Network(model.onnx, { card: model.card, array: 'lrr48' });
+          const { sources } = network.estimate({ snapshots: { data, shape: shape.slice(1) } });
+          const found = sources.map(({ azimuthDeg }) => azimuthDeg.toFixed(0)).sort();
+          console.log(network.kind, (await pool.loadNetwork(model)).name, found.join());
+        }
       `,
       'uninitialised.mjs': `
         import { BoresightError, estimate } from 'boresight';
@@ -81,7 +92,11 @@ test('the module of drives can be had by name, and a pool loads it by itself', a
 });
 
 test('networks are a subpath of their own, and a pool loads their module by itself', async () => {
-  assert.equal(await printed('neural.mjs'), 'learned-pursuit learned-pursuit');
+  assert.deepEqual((await printed('neural.mjs')).split('\n'), [
+    'aaetr aaetr-any -5,12',
+    'aaetr aaetr-lrr48 -5,12',
+    'learned-pursuit learned-pursuit -5,12',
+  ]);
 });
 
 test('using the package before init() is a typed error', async () => {

@@ -47,7 +47,9 @@ pub enum AoaError {
         method: &'static str,
     },
     /// The method is a network and there is no model.
-    #[error("{method} is a network and needs a trained model")]
+    #[error(
+        "{method} is a trained network; load a model with Network (JavaScript) or --model (command line)"
+    )]
     NeedsModel {
         /// Name of the method.
         method: &'static str,

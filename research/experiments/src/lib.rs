@@ -32,6 +32,7 @@ mod deviation;
 pub mod doa;
 pub mod entrants;
 pub mod error;
+pub mod hard;
 pub mod images;
 pub mod imperfections;
 pub mod low_snr;

@@ -2,7 +2,7 @@
 
 use crate::error::EvaluateError;
 use crate::{
-    aoa, arrays, calibration, doa, images, imperfections, low_snr, near_field, resolution,
+    aoa, arrays, calibration, doa, hard, images, imperfections, low_snr, near_field, resolution,
     straddling,
 };
 use boresight_core::InputError;
@@ -23,6 +23,7 @@ pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
             parts.put_together::<calibration::CalibrationExperiment>()
         }
         doa::DoaExperiment::NAME => parts.put_together::<doa::DoaExperiment>(),
+        hard::HardExperiment::NAME => parts.put_together::<hard::HardExperiment>(),
         images::ImagesExperiment::NAME => parts.put_together::<images::ImagesExperiment>(),
         imperfections::ImperfectionsExperiment::NAME => {
             parts.put_together::<imperfections::ImperfectionsExperiment>()
@@ -40,7 +41,7 @@ pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
         name => Err(InputError::Unknown {
             what: format!("experiment of {}", parts.first().display()),
             expected:
-                "aoa, arrays, calibration, doa, images, imperfections, low-snr, near-field, resolution, straddling"
+                "aoa, arrays, calibration, doa, hard, images, imperfections, low-snr, near-field, resolution, straddling"
                     .into(),
             given: name.into(),
         }

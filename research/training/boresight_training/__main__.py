@@ -49,6 +49,8 @@ def parser() -> argparse.ArgumentParser:
     radars = "counting, cnn3d, dnn: radar of Table 3 or of Table 4"
     train.add_argument("--setup", choices=tuple(SETUPS), default="simulated", help=radars)
     train.add_argument("--arrays", choices=("lrr48", "any"), default="lrr48", help="aaetr: arrays to train on")
+    close = "aaetr: share of scenes with two close targets, which falls to none towards the end of the schedule"
+    train.add_argument("--close-pairs", type=float, default=0.0, metavar="SHARE", help=close)
     once = "aaetr: match targets by the last layer's answers for all layers, in place of by each layer's"
     train.add_argument("--matched-last", action="store_true", help=once)
     stored = "deepego, deepego-plus: folder of simulate drive --dataset to train on; may be given several times"
@@ -85,6 +87,8 @@ def parser() -> argparse.ArgumentParser:
     train.add_argument("--threads", type=int, help="threads on the CPU")
     train.add_argument("--bfloat16", action=argparse.BooleanOptionalAction, help="default: on a GPU")
     train.add_argument("--compile", action=argparse.BooleanOptionalAction, help="default: on a GPU")
+    graph = "aaetr: draw arrays in advance and run each step as a CUDA graph; default: on one GPU"
+    train.add_argument("--graph", action=argparse.BooleanOptionalAction, help=graph)
     train.add_argument("--evaluate-minutes", type=float, default=5.0)
     train.add_argument("--evaluate-count", type=int, default=250)
     train.add_argument("--checkpoint-minutes", type=float, default=2.0)
@@ -124,7 +128,7 @@ def train(arguments) -> list[dict]:
         identity["snr_db"] = a.snr_db
     if a.channel_error is not None:
         identity["channel_error"] = a.channel_error
-    for name in ("weaker_db", "moving", "second_stage_only", "matched_last"):
+    for name in ("weaker_db", "moving", "second_stage_only", "matched_last", "close_pairs"):
         if value := getattr(a, name):
             identity[name] = value
     if a.data:
@@ -138,6 +142,7 @@ def train(arguments) -> list[dict]:
     what = task(**identity, **places)
     group = processes.start(a.device)
     on_gpu = group.device.type == "cuda"
+    graph = on_gpu and group.count == 1 and a.network in ("aaetr", "learned-pursuit") if a.graph is None else a.graph
     settings = Settings(
         batch=a.batch or what.batch,
         learning_rate=a.learning_rate or what.learning_rate,
@@ -148,7 +153,9 @@ def train(arguments) -> list[dict]:
         ema=a.ema,
         seed=a.seed,
         bfloat16=on_gpu if a.bfloat16 is None else a.bfloat16,
-        compile=on_gpu if a.compile is None else a.compile,
+        # Compiling takes minutes for the many numbers of elements of arrays of any kind.
+        compile=on_gpu and a.arrays != "any" if a.compile is None else a.compile,
+        graph=graph,
         log_seconds=a.log_seconds,
         checkpoint_seconds=60 * a.checkpoint_minutes,
         evaluate_seconds=60 * a.evaluate_minutes,

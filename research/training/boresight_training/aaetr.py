@@ -36,6 +36,13 @@ class AaetrConfig:
     """Length of the convolution over neighbouring queries of the steered form; 0 for none."""
     half_view: float = 0.9
     """Queries of the steered form start within plus and minus this sine."""
+    positions: str = "linear"
+    """Positional encoding of the elements: `linear` projection of their positions, `waves` (their sines and cosines at
+    several frequencies, then linear), or `learned`, one vector for each element."""
+    query_scale: float = 0.5
+    """Standard deviation of the queries and their positions before training."""
+    query_attention: bool = False
+    """Whether queries attend to each other before they attend to elements, as in DETR."""
 
 
 CONFIGS = {
@@ -103,12 +110,18 @@ class DecoderLayer(nn.Module):
         self.before_feedforward, self.feedforward = nn.LayerNorm(c.width), Feedforward(c.width, c.feedforward)
         if c.attend:
             self.before_attention, self.attention = nn.LayerNorm(c.width), Attention(c.width, c.heads)
+        self.own = None
+        if c.query_attention:
+            self.before_own, self.own = nn.LayerNorm(c.width), Attention(c.width, c.heads)
         self.mix = None
         if c.neighbours:
             self.before_mix = nn.LayerNorm(c.width)
             self.mix = nn.Conv1d(c.width, c.width, c.neighbours, padding=c.neighbours // 2)
 
     def forward(self, x, query_position=None, elements=None, position=None):
+        if self.own is not None:
+            n = self.before_own(x)
+            x = x + self.own(n + query_position, n + query_position, n)
         if elements is not None:
             x = x + self.attention(self.before_attention(x) + query_position, elements + position, elements)
         if self.mix is not None:
@@ -127,12 +140,13 @@ class Aaetr(nn.Module):
     def __init__(self, config: AaetrConfig):
         super().__init__()
         self.config = c = config
-        self.query = nn.Parameter(torch.randn(c.queries, c.width) * 0.5)
+        self.query = nn.Parameter(torch.randn(c.queries, c.width) * c.query_scale)
         self.decoder = nn.ModuleList(DecoderLayer(c) for _ in range(c.decoder_layers))
         self.norm = nn.LayerNorm(c.width)
         if c.attend:
-            self.query_position = nn.Parameter(torch.randn(c.queries, c.width) * 0.5)
-            self.embed_value, self.embed_position = nn.Linear(2, c.width), nn.Linear(3, c.width)
+            self.query_position = nn.Parameter(torch.randn(c.queries, c.width) * c.query_scale)
+            self.embed_value = nn.Linear(2, c.width)
+            self.embed_position = _position_encoding(c)
             self.encoder = nn.ModuleList(EncoderLayer(c) for _ in range(c.encoder_layers))
         if c.steered:
             self.steer = nn.ModuleList(Steer(c) for _ in range(c.decoder_layers))
@@ -169,6 +183,38 @@ class Aaetr(nn.Module):
         for layer in self.encoder:
             x = layer(x, position)
         return self.query_position, x, position
+
+
+def _position_encoding(c: AaetrConfig) -> nn.Module:
+    """Positions over half of the aperture, [elements, 3] or [batch, elements, 3], to vectors."""
+    if c.positions == "linear":
+        return nn.Linear(3, c.width)
+    if c.positions == "waves":
+        return nn.Sequential(Waves(), nn.Linear(2 * len(WAVES), c.width))
+    return Learned(c.elements, c.width)
+
+
+WAVES = tuple(float(2**k) for k in range(-1, 7))
+"""Half turns over the aperture: from a wave of the whole length to one of twice the element spacing."""
+
+
+class Waves(nn.Module):
+    """Sines and cosines of positions along y."""
+
+    def forward(self, positions):
+        phase = positions[..., 1:2] * (torch.pi / 2 * torch.tensor(WAVES, device=positions.device))
+        return torch.cat((phase.sin(), phase.cos()), -1)
+
+
+class Learned(nn.Module):
+    """A vector for each element of one array, whatever its position."""
+
+    def __init__(self, elements: int, width: int):
+        super().__init__()
+        self.vectors = nn.Parameter(torch.randn(elements, width) * 0.5)
+
+    def forward(self, positions):
+        return self.vectors
 
 
 class Steering:

@@ -39,12 +39,22 @@ def random_arrays(batch: int, generator: torch.Generator) -> torch.Tensor:
     elements scattered at random, 0.5 half wavelengths apart or more. Elements of half of the arrays are then displaced
     in each direction, with a standard deviation of up to 0.05 half wavelengths.
     """
-    elements = _whole(*ELEMENTS, generator)
+    return placed(random_rows(batch, _whole(*ELEMENTS, generator), generator), generator)
+
+
+def random_rows(batch: int, elements: int, generator: torch.Generator) -> torch.Tensor:
+    """Places along y of the elements of different arrays, [batch, elements], each about its mean."""
     kinds = torch.randint(0, len(_KINDS), (batch,), generator=generator, device=generator.device).tolist()
     rows = torch.stack([_row(_KINDS[kind], elements, generator) for kind in kinds])
+    return rows - rows.mean(-1, keepdim=True)
+
+
+def placed(rows: torch.Tensor, generator: torch.Generator) -> torch.Tensor:
+    """Positions [batch, elements, 3] of rows, half of them mirrored and half of them displaced."""
+    batch, elements = rows.shape
     turned = torch.where(torch.rand(batch, 1, generator=generator, device=generator.device) < 0.5, -1.0, 1.0)
     positions = torch.zeros(batch, elements, 3, dtype=torch.float64, device=generator.device)
-    positions[..., 1] = (rows - rows.mean(-1, keepdim=True)) * turned
+    positions[..., 1] = rows * turned
     displaced = torch.rand(batch, 1, 1, generator=generator, device=generator.device, dtype=torch.float64) - 0.5
     errors = torch.randn(positions.shape, generator=generator, device=generator.device, dtype=torch.float64)
     return positions + 0.1 * displaced.clamp_min(0) * errors
@@ -86,6 +96,13 @@ def _whole(low: int, high: int, generator: torch.Generator) -> int:
 
 def _number(low: float, high: float, generator: torch.Generator) -> float:
     return low + (high - low) * float(torch.rand((), generator=generator, device=generator.device))
+
+
+def resolution(positions: torch.Tensor) -> torch.Tensor:
+    """Rayleigh's resolution in the sine of the azimuth, from the extent along y: [1], or [batch, 1] for many arrays."""
+    left = positions[..., 1]
+    extent = left.amax(-1, keepdim=True) - left.amin(-1, keepdim=True)
+    return 2 / extent.clamp_min(1.0)
 
 
 def steering(positions: torch.Tensor, u: torch.Tensor) -> torch.Tensor:

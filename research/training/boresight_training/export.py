@@ -7,6 +7,7 @@ import re
 import shutil
 import warnings
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import onnx
@@ -59,9 +60,7 @@ def restore(folder: Path, **places: Path) -> tuple[dict, Task, torch.nn.Module]:
     return saved, what, network.eval()
 
 
-def exported_form(
-    what: Task, network: torch.nn.Module, precision: str, deviations: list[float] | None = None
-) -> torch.nn.Module:
+def exported_form(what: Task, network: torch.nn.Module, precision: str, deviations: Any = None) -> torch.nn.Module:
     """What is exported, in PyTorch, with its weights rounded to a precision in place."""
     form = what.export_form(network, deviations).eval()
     with torch.no_grad():
@@ -203,7 +202,7 @@ def export(
         "network": identity["name"],
         "form": identity["config"],
         **({} if confidence is None else {"confidence": round(confidence, 3)}),
-        **({} if deviations is None else {"deviation_factors": [round(factor, 4) for factor in deviations]}),
+        **({"deviation_factors": [round(f, 4) for f in deviations]} if isinstance(deviations, list) else {}),
         "inputs": _ports(what.inputs),
         "outputs": _ports(what.outputs),
         "parameters": parameters,

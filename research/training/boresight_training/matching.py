@@ -4,7 +4,11 @@ Shortest augmenting paths with potentials (Jonker and Volgenant 1987, in the for
 each along the cheapest path to a free column; every step is done for all problems together.
 """
 
+from importlib.util import find_spec
+
 import torch
+
+from .gpu import assignment
 
 
 @torch.no_grad()
@@ -12,8 +16,10 @@ def assign(cost: torch.Tensor, rows: torch.Tensor) -> torch.Tensor:
     """Column of each row, [batch, most], such that the sum of costs is least; -1 for rows that do not exist.
 
     `cost` is [batch, most, columns] and finite with at least as many columns as rows; `rows` [batch] says how many
-    of the rows exist in each problem.
+    of the rows exist in each problem. On a GPU that CuPy can compile for, a kernel of its own does it.
     """
+    if cost.is_cuda and find_spec("cupy") is not None:
+        return assignment.assign(cost, rows)
     batch, most, columns = cost.shape
     if most > columns:
         raise ValueError(f"{most} rows cannot be assigned to {columns} columns")

@@ -61,13 +61,6 @@ def best_f1(azimuth, db, confidence, targets) -> dict:
     }
 
 
-def right_predictions(azimuth, logit, targets):
-    """Which predictions are more likely than not and right, and the target nearest to each, both [scenes, queries]."""
-    distance = (azimuth.unsqueeze(2) - targets.azimuth.unsqueeze(1)).abs()
-    least, nearest = distance.masked_fill(~targets.valid.unsqueeze(1), torch.inf).min(2)
-    return (least <= WITHIN) & (logit > 0), nearest
-
-
 def _matched(distance, confidence):
     """Which predictions take a free target within reach, in order of confidence, each the nearest."""
     scenes = torch.arange(len(distance))

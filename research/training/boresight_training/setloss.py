@@ -6,7 +6,6 @@ from math import pi
 import torch
 from torch.nn import functional
 
-from .arrays import LRR48_APERTURE
 from .matching import assign
 
 
@@ -27,25 +26,25 @@ class SetLossConfig:
     """Whether the last layer's matching is that of all layers, in place of one each: much less work on a GPU."""
 
 
-LRR48_CELL = torch.tensor([[2 / LRR48_APERTURE]])
-
-
-def set_loss(outputs, targets, config: SetLossConfig, cell=LRR48_CELL):
+def set_loss(outputs, targets, config: SetLossConfig, cell, slots=None):
     """Loss of `outputs` [layers, batch, queries, 3 or 5]: its sum over layers, and the parts of the last.
 
     Outputs are sine, dB, logit, and the logarithms of the variances of sine (in cells) and dB, where there are any.
-    `cell` is Rayleigh's resolution in sine of each array, [batch, 1], or of all, [1, 1]. Every part is a sum over a
-    batch divided by its number of targets.
+    `cell` is Rayleigh's resolution in sine of each array, [batch, 1], or of all, [1]. Every part is a sum over a
+    batch divided by its number of targets. With `slots` [queries], sines, each target is assigned to a query by the
+    distance of its slot, whatever the outputs.
     """
     layers, batch = outputs.shape[:2]
     u, db, logit, *spread = outputs.float().unbind(-1)
     true_u, true_db = targets.u.float(), targets.db.float()
-    cell = cell.to(u)
+    cell = cell.to(u).view(-1, 1)
     with torch.no_grad():
         matched = slice(-1 if config.matched_last else 0, None)
         far = (u[matched].unsqueeze(-2) - true_u.unsqueeze(-1)).abs().div(cell.unsqueeze(-1))
         cost = config.sine * far + config.magnitude * (db[matched].unsqueeze(-2) - true_db.unsqueeze(-1)).abs()
         cost = cost + config.confidence * _gain(logit[matched], config).unsqueeze(-2)
+        if slots is not None:
+            cost = (slots - true_u.unsqueeze(-1)).abs().expand_as(cost)
         rows = targets.valid.sum(1).repeat(len(cost))
         columns = assign(cost.flatten(0, 1), rows).view(len(cost), batch, -1).expand(layers, -1, -1)
         there = (columns >= 0).float()

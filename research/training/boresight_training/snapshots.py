@@ -1,11 +1,11 @@
 """Snapshots of an array with random targets: `y = sum_m alpha_m a(theta_m) + n` (equations 4 to 6 of AAETR's paper)."""
 
 from dataclasses import dataclass
-from math import log, radians
+from math import log, radians, sin
 
 import torch
 
-from .arrays import steering
+from .arrays import resolution, steering
 
 
 @dataclass(frozen=True)
@@ -42,6 +42,12 @@ class Scenes:
     """Power of a 0 dB target over the noise power, both at one element."""
     position_error: float = 0.0
     """Standard deviation of each coordinate of the elements, drawn anew for each scene; half wavelengths."""
+    close_pairs: float | torch.Tensor = 0.0
+    """Share of the scenes whose second target is CLOSE_CELLS from the first."""
+
+
+CLOSE_CELLS = (0.2, 2.0)
+"""Least and largest distance of close pairs, in cells of Rayleigh's resolution."""
 
 
 def uniform(shape, low, high, generator, dtype=torch.float64):
@@ -55,17 +61,30 @@ def complex_normal(shape, generator, dtype=torch.float32):
     return torch.view_as_complex(parts * 0.5**0.5)
 
 
-def draw_targets(scenes: Scenes, batch: int, generator: torch.Generator) -> Targets:
-    """Random targets of `batch` scenes."""
+def draw_targets(scenes: Scenes, batch: int, generator: torch.Generator, cell: torch.Tensor | None = None) -> Targets:
+    """Random targets of `batch` scenes. Close pairs need the array's resolution in sine, `cell` [1] or [batch, 1]."""
     fewest, most = scenes.targets
     count = torch.randint(fewest, most + 1, (batch, 1), generator=generator, device=generator.device)
     half = radians(scenes.field_of_view_deg)
+    azimuth = uniform((batch, most), -half, half, generator)
+    if cell is not None and most > 1:
+        azimuth = _with_pairs(azimuth, scenes.close_pairs, cell.double(), half, generator)
     return Targets(
-        azimuth=uniform((batch, most), -half, half, generator),
+        azimuth=azimuth,
         db=uniform((batch, most), *scenes.db, generator),
         phase=uniform((batch, most), 0.0, 2 * torch.pi, generator),
         valid=torch.arange(most, device=generator.device) < count,
     )
+
+
+def _with_pairs(azimuth, share, cell, half, generator):
+    """Azimuths of which a share of the scenes has the second one beside the first."""
+    batch = len(azimuth)
+    apart = uniform((batch, 1), *CLOSE_CELLS, generator) * cell
+    side = torch.where(uniform((batch, 1), 0.0, 1.0, generator) < 0.5, -1.0, 1.0)
+    beside = (azimuth[:, :1].sin() + side * apart).clamp(-sin(half), sin(half)).asin()
+    close = uniform((batch, 1), 0.0, 1.0, generator) < share
+    return torch.cat((azimuth[:, :1], torch.where(close, beside, azimuth[:, 1:2]), azimuth[:, 2:]), 1)
 
 
 def responses(targets: Targets, positions: torch.Tensor) -> torch.Tensor:
@@ -79,8 +98,10 @@ def snapshots(scenes: Scenes, positions: torch.Tensor, batch: int, generator: to
 
     With position errors those are [batch, elements, 3], else as given.
     """
-    targets = draw_targets(scenes, batch, generator)
     positions = positions.to(generator.device)
+    # No random numbers are drawn for pairs where there are none.
+    cell = resolution(positions) if isinstance(scenes.close_pairs, torch.Tensor) or scenes.close_pairs > 0 else None
+    targets = draw_targets(scenes, batch, generator, cell)
     if scenes.position_error > 0:
         shape = (batch, *positions.shape)
         errors = torch.randn(shape, generator=generator, device=generator.device, dtype=torch.float64)

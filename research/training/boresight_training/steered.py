@@ -13,12 +13,14 @@ Complex numbers are pairs of real tensors, for ONNX has no others.
 """
 
 from dataclasses import dataclass
+from functools import cache
 from math import pi
 
 import torch
 from torch import nn
 
 from .aaetr import AaetrConfig, Attention, EncoderLayer, Feedforward
+from .arrays import resolution
 
 
 @dataclass(frozen=True)
@@ -52,9 +54,15 @@ def turned(re, im, cos, sin):
     return re * cos + im * sin, im * cos - re * sin
 
 
+@cache
+def _rates(device: torch.device) -> torch.Tensor:
+    """Made once: a CUDA graph cannot copy from the host."""
+    return pi * torch.tensor(WAVES, device=device)
+
+
 def waves(x):
     """Sines and cosines of places from -1 to 1, [..., 2 * len(WAVES)]."""
-    phase = x.unsqueeze(-1) * (pi * torch.tensor(WAVES, device=x.device))
+    phase = x.unsqueeze(-1) * _rates(x.device)
     return torch.cat((phase.sin(), phase.cos()), -1)
 
 
@@ -65,8 +73,7 @@ class Places:
         positions = positions.float()
         centred = positions - positions.mean(-2, keepdim=True)
         self.forward, self.left = centred[..., 0], centred[..., 1]
-        extent = self.left.amax(-1, keepdim=True) - self.left.amin(-1, keepdim=True)
-        self.cell = 2 / extent.clamp_min(1.0)
+        self.cell = resolution(positions)
         """Rayleigh's resolution in sine, [1] or [batch, 1]."""
 
     def phases(self, u):

@@ -1,5 +1,6 @@
 """What is trained: for each network its model, its data, its loss, its scores and its exported form."""
 
+from copy import deepcopy
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from math import log
@@ -12,16 +13,17 @@ from torch.nn import functional
 
 from . import steered, unrolled_iaa, words
 from .aaetr import CONFIGS, Aaetr
-from .arrays import ELEMENTS, array, random_arrays
+from .arrays import ELEMENTS, array, random_arrays, resolution
 from .classifiers import COVARIANCE_FEATURES, DNN_HIDDEN, counting, dnn, folded
 from .cnn3d import CNN3D, Cnn3d
 from .covariance_networks import CNN_CONFIGS, MUSIC_CONFIGS
+from .deviations import SHARE, fitted
 from .drives import deepego, smoother
 from .drives.smoother_task import DeepEgoPlusTask
 from .drives.task import DeepEgoTask
 from .ports import Port, snapshot_ports
 from .regions import CHIRPS, CLASSES, LENGTH, Cubes, channels, covariance_features, labels, regions
-from .score import best_f1, right_predictions
+from .score import best_f1
 from .setloss import SetLossConfig, set_loss
 from .snapshots import Scenes, snapshots
 from .spectra import CovarianceTask, UnrolledIaaTask
@@ -57,11 +59,11 @@ class Task(Protocol):
     def confidence(self, model: nn.Module, count: int, generator: torch.Generator) -> float | None:
         """Threshold on the exported confidence with the largest F1 over all conditions; none where none is needed."""
 
-    def deviations(self, model: nn.Module, count: int, generator: torch.Generator) -> list[float] | None:
-        """Factors that make the deviations which the model states those of its errors; none where it states none."""
+    def deviations(self, model: nn.Module, count: int, generator: torch.Generator) -> Any:
+        """What makes the deviations that the model states those of its errors; none where it states none."""
 
-    def export_form(self, model: nn.Module, deviations: list[float] | None = None) -> nn.Module:
-        """The module whose graph is exported, with these factors."""
+    def export_form(self, model: nn.Module, deviations: Any = None) -> nn.Module:
+        """The module whose graph is exported, with these deviations."""
 
     def example(self, batch: int, generator: torch.Generator) -> tuple[torch.Tensor, ...]:
         """Inputs of the exported form."""
@@ -75,10 +77,9 @@ TRANSFORMERS = tuple(name for name, config in AAETRS.items() if getattr(config, 
 PURSUITS = tuple(name for name in AAETRS if name not in TRANSFORMERS)
 EVALUATED = {"lrr48": (2, 6, 10), "awr1642": (1, 2), "ula16": (2, 4), "cascade86": (4, 10)}
 """Arrays that a network for any array is scored on, with numbers of targets. It is trained on none of them."""
+WITHIN_CELLS = 0.4
+"""How far from a target a prediction is right where deviations are fitted: half a degree on lrr48."""
 
-
-WITHIN = (0.6827, 0.9545)
-"""Shares of normal errors within one and two standard deviations."""
 ZHU = "Zhu, Chen and Yang (2024), Angle of Arrival Estimation with Transformer"
 
 
@@ -93,6 +94,7 @@ class AaetrTask:
         arrays: str = "lrr48",
         snr_db: tuple[float, float] | None = None,
         matched_last: bool = False,
+        close_pairs: float = 0.0,
     ):
         self.config = AAETRS[config]
         self.any_array = arrays == "any"
@@ -106,6 +108,7 @@ class AaetrTask:
         self.reference = f"{'Boresight, after ' if pursuit else ''}{ZHU}"
         self.architecture, self.differences = words.set_prediction(self.config)
         self.scenes = Scenes(targets=(0, targets), position_error=position_error)
+        self.close_pairs = close_pairs
         if snr_db is not None:
             self.scenes = replace(self.scenes, snr_db=snr_db)
         self.loss_config = SetLossConfig(matched_last=matched_last)
@@ -126,20 +129,27 @@ class AaetrTask:
     def model(self):
         return steered.SteeredAaetr(self.config) if self._states_deviations else Aaetr(self.config)
 
+    def close_share(self, progress: float) -> float:
+        """Share of scenes with a close pair; none at the end, so that confidences fit random scenes."""
+        return self.close_pairs * max(0.0, min(1.0, (0.85 - progress) / 0.25))
+
     def draw(self, batch, progress, generator):
-        scenes, positions = self.scenes, self.positions
+        positions = random_arrays(batch, generator) if self.any_array else self.positions
+        return self.draw_on(positions, batch, self.close_share(progress), generator)
+
+    def draw_on(self, positions, batch, close_share, generator):
+        """A batch of data of arrays [elements, 3] or [batch, elements, 3]; `close_share` may be a tensor."""
+        scenes = replace(self.scenes, close_pairs=close_share)
         if self.any_array:
-            positions = random_arrays(batch, generator)
             # A third of the elements is what lrr48 has targets at most.
-            most = max(1, min(scenes.targets[1], positions.shape[1] // 3))
+            most = max(1, min(scenes.targets[1], positions.shape[-2] // 3))
             scenes = replace(scenes, targets=(scenes.targets[0], most))
         targets, values, positions = snapshots(scenes, positions, batch, generator)
         return targets, torch.view_as_real(values), positions.float()
 
     def loss(self, model, data):
         targets, values, positions = data
-        cell = {"cell": steered.Places(positions).cell} if self.any_array else {}
-        return set_loss(model(values, positions), targets, self.loss_config, **cell)
+        return set_loss(model(values, positions), targets, self.loss_config, resolution(positions))
 
     def evaluate(self, model, count, generator):
         scores = []
@@ -160,20 +170,30 @@ class AaetrTask:
         if not self._states_deviations:
             return None
         # The array it is trained for, or arrays as it is trained on.
-        parts = [self.draw(250, 1.0, generator) for _ in range(max(1, 4 * count // 250))]
-        ratios = torch.cat([self._ratios(model, *part) for part in parts])
-        return [_factor(ratio) for ratio in ratios.T] if len(ratios) else [1.0, 1.0]
+        parts = [self._errors(model, self.draw(250, 1.0, generator)) for _ in range(max(1, 4 * count // 250))]
+        features, errors = (torch.cat(part) for part in zip(*parts, strict=True))
+        head = model.head
+        rows = torch.cat((head.weight[3:], head.bias[3:, None]), 1).detach()
+        # The head has logarithms of variances.
+        return fitted(0.5 * rows, features, errors) if len(errors) else 0.5 * rows
 
-    def _ratios(self, model, targets, values, positions):
-        """Errors over the deviations stated, of right predictions and in sine and dB, [predictions, 2]."""
-        with torch.no_grad():
-            answer = model(values, positions)[-1].double()
-        u, db, logit, *spread = answer.unbind(-1)
+    def _errors(self, model, data):
+        """Right predictions that are more likely than not: what their head sees, [predictions, width], and errors of
+        sine (cells) and dB, [predictions, 2]."""
+        targets, values, positions = data
+        seen = []
+        hook = model.head.register_forward_pre_hook(lambda _, inputs: seen.append(inputs[0]))
+        try:
+            with torch.no_grad():
+                u, db, logit, *_ = model(values, positions)[-1].double().unbind(-1)
+        finally:
+            hook.remove()
         cell = steered.Places(positions).cell.double()
-        right, nearest = right_predictions(u.clamp(-1, 1).asin(), logit, targets)
-        errors = ((u - targets.u.gather(1, nearest)) / cell, db - targets.db.gather(1, nearest))
-        ratios = [(e.abs() * (-0.5 * s).exp())[right] for e, s in zip(errors, spread, strict=True)]
-        return torch.stack(ratios, -1)
+        off = (u.unsqueeze(2) - targets.u.unsqueeze(1)).abs() / cell.unsqueeze(-1)
+        least, nearest = off.masked_fill(~targets.valid.unsqueeze(1), torch.inf).min(2)
+        right = (least <= WITHIN_CELLS) & (logit > 0)
+        errors = torch.stack((least, (db - targets.db.gather(1, nearest)).abs()), -1)
+        return seen[-1][right], errors[right]
 
     def _score(self, model, scenes, positions, count, generator):
         targets, values, positions = snapshots(scenes, positions, count, generator)
@@ -182,7 +202,12 @@ class AaetrTask:
         return best_f1(answers[..., 0].clamp(-1, 1).asin(), answers[..., 1], answers[..., 2], targets)
 
     def export_form(self, model, deviations=None):
-        return _Targets(model, (deviations or [1.0, 1.0]) if self._states_deviations else None)
+        if deviations is not None:
+            model = deepcopy(model)
+            with torch.no_grad():
+                model.head.weight[3:] = 2 * deviations[:, :-1]
+                model.head.bias[3:] = 2 * deviations[:, -1]
+        return _Targets(model, self._states_deviations)
 
     def example(self, batch, generator):
         _, values, _ = snapshots(replace(self.scenes, position_error=0.0), self.positions, batch, generator)
@@ -190,36 +215,25 @@ class AaetrTask:
 
     def describe(self):
         arrays = {"array": "any", "elements": list(ELEMENTS)} if self.any_array else {"array": "lrr48"}
-        data = {**arrays, **asdict(self.scenes)}
-        return {"model": asdict(self.config), "data": data, "loss": asdict(self.loss_config)}
-
-
-def _factor(ratios) -> float:
-    """By which deviations are multiplied, so that the shares of errors within one and two are equally far from WITHIN.
-
-    Errors have longer tails than normal ones, so that no factor has both.
-    """
-    one, two = ratios.quantile(WITHIN[0]).item(), 0.5 * ratios.quantile(WITHIN[1]).item()
-    factors = torch.linspace(one, two, 200, dtype=ratios.dtype)
-    shares = [(ratios.unsqueeze(1) <= times * factors).double().mean(0) for times in (1, 2)]
-    off = torch.stack([(share - wanted).abs() for share, wanted in zip(shares, WITHIN, strict=True)]).amax(0)
-    return factors[off.argmin()].item()
+        data = {**arrays, **asdict(replace(self.scenes, close_pairs=self.close_pairs))}
+        told = {"model": asdict(self.config), "data": data, "loss": asdict(self.loss_config)}
+        if self._states_deviations:
+            told["deviations"] = {"share": SHARE, "within_cells": WITHIN_CELLS}
+        return told
 
 
 class _Targets(nn.Module):
-    def __init__(self, model, deviations):
+    def __init__(self, model, states_deviations):
         super().__init__()
-        self.model, self.deviations = model, deviations
+        self.model, self.states_deviations = model, states_deviations
 
     def forward(self, snapshots, positions):
         sine, db, logit, *spread = self.model(snapshots, positions)[-1].split(1, -1)
         # No dB: those of empty queries magnify rounding.
         answer = (sine, (db * (log(10) / 20)).exp(), logit.sigmoid())
-        if self.deviations is None:
+        if not self.states_deviations:
             return torch.cat(answer, -1)
-        in_cells, in_db = (
-            (0.5 * s.clamp(-20, 10)).exp() * factor for s, factor in zip(spread, self.deviations, strict=True)
-        )
+        in_cells, in_db = ((0.5 * s.clamp(-20, 10)).exp() for s in spread)
         return torch.cat((*answer, in_cells * steered.Places(positions).cell, in_db), -1)
 
 
@@ -487,6 +501,7 @@ def task(
     moving: bool = False,
     second_stage_only: bool = False,
     matched_last: bool = False,
+    close_pairs: float = 0.0,
     data: list[dict] | None = None,
     doppler_loss_only: bool = False,
     single_digest: str | None = None,
@@ -508,7 +523,8 @@ def task(
         return DeepEgoPlusTask(config, data, single_digest, folders, test, weights)
     snr_db = None if snr_db is None else tuple(snr_db)
     if name in ("aaetr", "learned-pursuit"):
-        return AaetrTask(config, position_error, 16 if targets is None else targets, arrays, snr_db, matched_last)
+        most = 16 if targets is None else targets
+        return AaetrTask(config, position_error, most, arrays, snr_db, matched_last, close_pairs)
     if name == "unrolled-iaa":
         return UnrolledIaaTask(config, 16 if targets is None else targets)
     if name in ("covariance-cnn", "deep-music"):

@@ -13,6 +13,7 @@ from torch import nn
 from torch.nn.parallel import DistributedDataParallel
 
 from . import checkpoint, hardware, published
+from .gpu.steps import GraphSteps
 from .processes import Processes
 from .tasks import Task
 
@@ -40,6 +41,8 @@ class Settings:
     seed: int = 0
     bfloat16: bool = False
     compile: bool = False
+    graph: bool = False
+    """Whether steps are CUDA graphs (`gpu.steps`); on a CPU the same steps run without."""
     log_seconds: float = 10.0
     checkpoint_seconds: float = 120.0
     evaluate_seconds: float = 300.0
@@ -74,6 +77,7 @@ class Training:
             lr=0.0,
             betas=(0.9, 0.98),
             fused=True,
+            capturable=settings.graph and processes.device.type == "cuda",
         )
         self.generator = torch.Generator(device=processes.device)
         self.step, self.samples, self.seconds = 0, 0, 0.0
@@ -89,6 +93,11 @@ class Training:
         if settings.compile:
             model = torch.compile(model)
         self.model = DistributedDataParallel(model) if processes.count > 1 else model
+        self.steps = None
+        if settings.graph:
+            if processes.count > 1:
+                raise ValueError(f"steps as graphs in {processes.count} processes: expected one")
+            self.steps = GraphSteps(task, model, self.ema, self.optimizer, settings, self.generator)
 
     def run(self) -> list[dict[str, float]]:
         """Trains until the schedule ends, the time is up or a signal comes; scores of the averaged weights."""
@@ -211,10 +220,17 @@ class Training:
         progress = self.processes.agree(self.progress())
         warmup = min(1.0, (self.step + 1) / s.warmup_steps)
         rate = s.learning_rate * warmup * (0.01 + 0.99 * 0.5 * (1 + cos(pi * progress)))
+        # Data depend on seed, process and step alone, so that a resumed run sees what it would have seen.
+        seed = (s.seed * 1_000_003 + self.step) * 4096 + self.processes.rank + 1
+        if self.steps is not None:
+            self.network.train()
+            told = self.steps.run(self.step, seed, rate, self._decay(self.step + 1), progress)
+            self.step += 1
+            self.samples += s.batch
+            return told
         for group in self.optimizer.param_groups:
             group["lr"] = rate
-        # Data depend on seed, process and step alone, so that a resumed run sees what it would have seen.
-        self.generator.manual_seed((s.seed * 1_000_003 + self.step) * 4096 + self.processes.rank + 1)
+        self.generator.manual_seed(seed)
         data = self.task.draw(s.batch // self.processes.count, progress, self.generator)
         self.network.train()
         with self._autocast():
@@ -228,10 +244,14 @@ class Training:
         self._average()
         return {"loss": loss.detach(), "gradient": norm, **parts}
 
+    def _decay(self, step: int) -> float:
+        """How much of the averaged weights a step leaves, less at first."""
+        return min(self.settings.ema, (1 + step) / (10 + step))
+
     @torch.no_grad()
     def _average(self) -> None:
-        """Moves the averaged weights, faster at first."""
-        decay = min(self.settings.ema, (1 + self.step) / (10 + self.step))
+        """Moves the averaged weights."""
+        decay = self._decay(self.step)
         averaged, current = self.ema.state_dict(), self.network.state_dict()
         floats = [name for name, value in current.items() if value.is_floating_point()]
         torch._foreach_lerp_([averaged[n] for n in floats], [current[n] for n in floats], 1 - decay)
@@ -249,7 +269,7 @@ class Training:
         if not self.processes.first:
             return
         at = {"step": self.step, "samples": self.samples, "seconds": round(self.seconds, 1)}
-        at["learning_rate"] = self.optimizer.param_groups[0]["lr"]
+        at["learning_rate"] = float(self.optimizer.param_groups[0]["lr"])
         self.folder.mkdir(parents=True, exist_ok=True)
         with open(self.folder / "log.jsonl", "a") as file:
             file.write(json.dumps(at | entry) + "\n")

@@ -36,6 +36,9 @@ def test_more_rows_than_columns_are_refused():
         assign(torch.zeros(1, 3, 2), torch.tensor([3]))
 
 
+CELL = torch.tensor([2 / LRR48_APERTURE])
+
+
 def truth(*scenes):
     """Targets from lists of (azimuth in deg, dB)."""
     most = max(map(len, scenes))
@@ -86,11 +89,11 @@ def test_the_loss_vanishes_at_the_truth_and_matches_in_any_order(focal):
             db[:, scene, query] = targets.db[scene, target].float()
             logit[:, scene, query] = 30.0
     config = replace(SetLossConfig(), focal=focal)
-    loss, parts = set_loss(torch.stack((u, db, logit), -1), targets, config)
+    loss, parts = set_loss(torch.stack((u, db, logit), -1), targets, config, CELL)
     assert loss < 1e-4 and all(value < 1e-4 for value in parts.values())
     wrong = db.clone()
     wrong[1, 0, 3] += 4.0
-    loss, parts = set_loss(torch.stack((u, wrong, logit), -1), targets, config)
+    loss, parts = set_loss(torch.stack((u, wrong, logit), -1), targets, config, CELL)
     assert parts["magnitude"] == pytest.approx(1.0, rel=1e-4)  # 4 dB over four targets
     assert loss == pytest.approx(config.magnitude, rel=1e-3)
 
@@ -99,10 +102,10 @@ def test_the_last_layers_matching_can_be_that_of_all():
     targets = truth([(10, 0), (-20, 0)])
     last = torch.stack((targets.u[0].float(), torch.zeros(2), torch.full((2,), 30.0)), -1)
     answers = torch.stack((last.flip(0), last)).unsqueeze(1)
-    each, _ = set_loss(answers, targets, SetLossConfig())
+    each, _ = set_loss(answers, targets, SetLossConfig(), CELL)
     assert each < 1e-4
     apart = (targets.u[0, 0] - targets.u[0, 1]).abs().item() / (2 / LRR48_APERTURE)
-    by_last, parts = set_loss(answers, targets, SetLossConfig(matched_last=True))
+    by_last, parts = set_loss(answers, targets, SetLossConfig(matched_last=True), CELL)
     assert by_last.item() == pytest.approx(apart, rel=1e-4) and parts["sine"] < 1e-4
 
 
@@ -111,12 +114,12 @@ def test_stated_variances_are_best_at_those_of_normal_errors_of_that_size_and_le
     cell = 2 / LRR48_APERTURE
     answers = torch.tensor([0.25 * cell, -1.0, 30.0]).repeat(1, 1, 1, 1).requires_grad_()
     spread = (torch.tensor([0.25, 2.0]).square() * pi / 2).log().repeat(1, 1, 1, 1).requires_grad_()
-    loss, _ = set_loss(torch.cat((answers, spread), -1), targets, SetLossConfig())
-    without, _ = set_loss(answers, targets, SetLossConfig())
+    loss, _ = set_loss(torch.cat((answers, spread), -1), targets, SetLossConfig(), CELL)
+    without, _ = set_loss(answers, targets, SetLossConfig(), CELL)
     given = torch.autograd.grad(loss, (answers, spread))
     assert given[1].abs().max() < 1e-6
     assert torch.allclose(given[0], torch.autograd.grad(without, answers)[0])
     # Half the deviation costs 2 - 1 - log 2 more.
-    narrow, parts = set_loss(torch.cat((answers, spread - 2 * log(2)), -1), targets, SetLossConfig())
+    narrow, parts = set_loss(torch.cat((answers, spread - 2 * log(2)), -1), targets, SetLossConfig(), CELL)
     assert (narrow - loss).item() == pytest.approx(0.1 * 2 * (1 - log(2)), rel=1e-4)
     assert parts["spread"].item() == pytest.approx((narrow - without).item() / 0.1, rel=1e-3)

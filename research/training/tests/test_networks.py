@@ -9,8 +9,9 @@ from onnx import numpy_helper
 
 from boresight_training import export
 from boresight_training.aaetr import CONFIGS, Aaetr
-from boresight_training.arrays import array
+from boresight_training.arrays import LRR48_APERTURE, array
 from boresight_training.classifiers import counting, folded, fully_connected
+from boresight_training.deviations import fitted, with_one
 from boresight_training.snapshots import Scenes, snapshots
 from boresight_training.tasks import task
 
@@ -124,7 +125,8 @@ def test_steered_attention_takes_any_array_and_turns_with_it():
 def test_what_is_exported_for_any_array_takes_any_number_of_elements(tmp_path):
     torch.manual_seed(0)
     what = task("aaetr", "steered-attention-tiny", arrays="any")
-    form = export.exported_form(what, what.model().eval(), False, [0.5, 2.0])
+    model = what.model().eval()
+    form = export.exported_form(what, model, "single", torch.randn(2, model.config.width + 1))
     export.to_onnx(what, form, tmp_path / "any.onnx")
     session = onnxruntime.InferenceSession(tmp_path / "any.onnx", providers=["CPUExecutionProvider"])
     generator = torch.Generator().manual_seed(4)
@@ -139,27 +141,47 @@ def test_what_is_exported_for_any_array_takes_any_number_of_elements(tmp_path):
         assert answer.shape == (3, 48, 5) and (answer - expected).abs().max() < 1e-4, name
 
 
-def test_stated_deviations_are_scaled_to_the_errors():
+def test_stated_deviations_are_fitted_to_the_errors():
     torch.manual_seed(0)
     what = task("aaetr", "steered-attention-tiny", targets=1, snr_db=(30.0, 40.0))
     network = what.model().eval()
-    # A network that answers where its anchors are: errors of a few cells, and deviations of one.
+    # A network that answers where its anchors are: errors of tenths of a cell, and deviations of one.
     with torch.no_grad():
         network.head.bias[2] = 5.0
         network.head.weight.zero_()
-    factors = what.deviations(network, 1000, torch.Generator().manual_seed(3))
-    drawn = [what.draw(250, 1.0, torch.Generator().manual_seed(seed)) for seed in range(4, 20)]
-    ratios = torch.cat([what._ratios(network, *data) for data in drawn])
-    shares = [(ratios <= times * torch.tensor(factors)).double().mean(0) for times in (1, 2)]
-    one, two = (share - wanted for share, wanted in zip(shares, (0.6827, 0.9545), strict=True))
-    # As much above the one as below the other, or both right. Some 700 right predictions on either side: the
-    # difference of two shares deviates by 0.025.
-    assert len(ratios) > 500 and (one + two).abs().max() < 0.08 and one.abs().max() < 0.2
-    plain, scaled = (what.export_form(network, given) for given in (None, factors))
-    example = what.example(3, torch.Generator().manual_seed(8))
-    with torch.no_grad():
-        ratio = scaled(*example)[..., 3:] / plain(*example)[..., 3:]
-    assert torch.allclose(ratio, torch.tensor(factors).expand_as(ratio), rtol=1e-4)
+    rows = what.deviations(network, 1000, torch.Generator().manual_seed(3))
+    stated, unchanged = (what.export_form(network, given) for given in (rows, None))
+    assert network.head.weight.abs().max() == 0
+    errors = []
+    for seed in range(4, 20):
+        targets, values, positions = what.draw(250, 1.0, torch.Generator().manual_seed(seed))
+        with torch.no_grad():
+            answer, before = (form(values, positions) for form in (stated, unchanged))
+        assert torch.equal(answer[..., :3], before[..., :3])
+        off = (answer[..., :1] - targets.u.unsqueeze(1)).abs().masked_fill(~targets.valid.unsqueeze(1), torch.inf)
+        right = (off[..., 0] <= 0.4 * 2 / LRR48_APERTURE) & (answer[..., 2] > 0.5)
+        db = 20 * answer[..., 1].log10() - targets.db
+        errors.append(torch.stack((off[..., 0], db.abs()), -1)[right] / answer[right][:, 3:])
+    errors = torch.cat(errors)
+    # Some 700 right predictions on either side: the difference of two shares deviates by 0.025.
+    assert len(errors) > 500 and ((errors <= 1).double().mean(0) - 0.6827).abs().max() < 0.075
+
+
+def test_small_deviations_are_fitted_apart_from_large_ones():
+    generator = torch.Generator().manual_seed(5)
+    features = torch.randn(20_000, 3, generator=generator)
+    truth = torch.tensor([[0.5, -1.0, 0.0, -2.0], [0.0, 0.3, 0.8, 1.0]])
+    deviations = (with_one(features) @ truth.T).exp()
+    errors = deviations * torch.randn(20_000, 2, generator=generator).abs()
+    rows = fitted(torch.zeros(2, 4), features, errors)
+    assert (rows - truth).abs().max() < 0.05
+    ratios = errors / (with_one(features.double()) @ rows.T).exp()
+    for output in range(2):
+        order = deviations[:, output].argsort()
+        for part in order.tensor_split(4):
+            # 5,000 errors: a share deviates by 0.007 and 0.003.
+            one, two = ((ratios[part, output] <= times).double().mean() for times in (1, 2))
+            assert abs(one - 0.6827) < 0.03 and abs(two - 0.9545) < 0.015
 
 
 def test_the_steered_form_ignores_the_phase_of_the_whole():

@@ -217,6 +217,22 @@ def test_scenes_have_the_statistics_they_claim():
     assert abs(float(empty.abs().square().mean()) / 0.1 - 1) < 0.05
 
 
+def test_close_pairs_are_as_frequent_and_as_close_as_asked_for():
+    cell = 2 / 92
+    for share in (0.0, 0.5, torch.tensor(0.5)):
+        scenes = Scenes(targets=(2, 2), close_pairs=share)
+        targets, _, _ = snapshots(scenes, array("lrr48"), 4000, torch.Generator().manual_seed(9))
+        apart = (targets.u[:, 0] - targets.u[:, 1]).abs() / cell
+        assert targets.azimuth.abs().max() <= radians(60) + 1e-9
+        # Of random targets some 2 in 100 are as close, and so are pairs moved back to the edge of the sector. 4,000
+        # scenes: a share deviates by 0.008.
+        by_chance = 0.025
+        close = (apart <= 2).double().mean()
+        assert abs(close - (share + (1 - share) * by_chance)) < 0.03, share
+        if share > 0:
+            assert 0.15 < apart[apart <= 2].median() / 1.1 < 1.3 and (apart[apart < 0.19]).numel() < 40
+
+
 def test_displaced_elements_are_reported_as_simulated():
     scenes = Scenes(targets=(3, 3), snr_db=(200, 200), position_error=0.05)
     targets, values, positions = snapshots(scenes, array("lrr48"), 50, torch.Generator().manual_seed(5))

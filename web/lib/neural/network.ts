@@ -67,8 +67,8 @@ export function captureRegions(
  * import { initNeural, Network } from 'boresight/neural';
  *
  * await Promise.all([init(), initNeural()]);
- * const file = (end) => readFile(new URL(import.meta.resolve(`boresight/models/learned-pursuit.${end}`)));
- * const network = new Network(await file('onnx'), { card: String(await file('json')) });
+ * const file = (end) => readFile(new URL(import.meta.resolve(`boresight/models/aaetr-any.${end}`)));
+ * const network = new Network(await file('onnx'), { card: String(await file('json')), array: 'lrr48' });
  * const targets = [{ azimuthDeg: -5 }, { azimuthDeg: 12 }];
  * const { data, shape } = simulateSnapshots({ array: 'lrr48', targets, snrDb: 25, seed: 4 });
  * const { sources } = network.estimate({ snapshots: { data, shape: shape.slice(1) } });

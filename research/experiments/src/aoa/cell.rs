@@ -12,7 +12,7 @@ use boresight_aoa::refinement::Refinement;
 use boresight_aoa::{BatchEstimate, Data, Source};
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::presets::preset;
-use boresight_core::{Array, Complex64, Direction, Imperfections};
+use boresight_core::{Array, Complex64, Direction, Imperfections, Random};
 use boresight_math::decibels::{db_to_amplitude, db_to_power};
 use boresight_math::phasor::cis;
 use boresight_simulate::snapshots::{
@@ -22,6 +22,7 @@ use boresight_validate::experiment::Tell;
 use ndarray::{Array2, Array3, ArrayView3, Axis};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 /// Half width of the sector of targets, rad (60 deg).
 pub(super) const TARGETS_WITHIN_RAD: f64 = 1.047_197_551_196_597_6;
@@ -42,7 +43,8 @@ pub struct MethodRecord {
 }
 
 impl MethodRecord {
-    fn new(threshold: Threshold) -> Self {
+    /// Nothing yet.
+    pub(crate) fn new(threshold: Threshold) -> Self {
         Self {
             score: Score::new(threshold),
             separated: (0.0, 0.0, 0),
@@ -60,6 +62,11 @@ fn prediction(source: &Source, threshold: Threshold) -> Prediction {
         Threshold::Confidence => odds_db(source.confidence.unwrap_or(1.0)),
     };
     Prediction { point, level_db }
+}
+
+/// Names of methods and networks in the order of records.
+pub(crate) fn names(entrants: &Entrants) -> Result<Vec<String>, EvaluateError> {
+    Ok(Candidate::all(entrants)?.iter().map(Candidate::name).collect())
 }
 
 /// A target or prediction among the answers: azimuth in degrees, power in dB (`null` where there is none), and the
@@ -82,13 +89,15 @@ pub struct AoaRecord {
 pub(super) type Task = Box<dyn FnMut(ArrayView3<Complex64>) -> Result<(), EvaluateError>>;
 
 /// All that snapshots share.
+#[derive(Clone)]
 pub struct Plan {
     array: Array,
     seed: u64,
     imperfections: ImperfectionSpread,
     candidates: Vec<Candidate>,
     beam: f64,
-    idle: Idle,
+    /// Shared by clones, which are for the same array.
+    idle: Arc<Idle>,
     /// Largest error of a right prediction, rad.
     within_rad: f64,
     spread_db: f64,
@@ -123,7 +132,7 @@ impl Plan {
             candidate.finder.estimator(&array, most)?.estimate(Data::Snapshots(silence.view()))?;
         }
         let beam = half_beam(&array);
-        let (imperfections, idle) = (ImperfectionSpread::default(), Idle::default());
+        let (imperfections, idle) = (ImperfectionSpread::default(), Arc::default());
         let (within_rad, spread_db) = (WITHIN_RAD, SPREAD_DB);
         Ok(Self { array, seed, imperfections, candidates, beam, idle, within_rad, spread_db })
     }
@@ -132,6 +141,17 @@ impl Plan {
     #[must_use]
     pub fn within(self, within_rad: f64) -> Self {
         Self { within_rad, ..self }
+    }
+
+    /// With errors of the array that no method knows of.
+    #[must_use]
+    pub fn with_imperfections(self, imperfections: ImperfectionSpread) -> Self {
+        Self { imperfections, ..self }
+    }
+
+    /// Half the width of the main beam between its zeros, sine.
+    pub fn beam(&self) -> f64 {
+        self.beam
     }
 
     /// Names of the methods in order.
@@ -263,25 +283,57 @@ impl Plan {
             true => None,
             false => Some(Imperfections::random(&self.array, self.imperfections, stream)?),
         };
-        let sampling = SceneSampling {
-            count: [condition.targets; 2],
-            field_of_view_rad: TARGETS_WITHIN_RAD,
-            power_db: [-self.spread_db, 0.0],
-            ..SceneSampling::default()
+        let (scene, seed, stream) = match condition.pair_beams {
+            None => (Scene::Sampled(self.sampling(condition.targets)), self.seed, stream),
+            Some(beams) => {
+                let mut random = Random::new(self.seed, stream);
+                let targets = self.pair_among(condition.targets, beams, &mut random);
+                (Scene::Given(targets), random.bits(), 0)
+            }
         };
         let simulator = SnapshotSimulator::new(
             &self.array,
             &SnapshotOptions {
-                scene: Scene::Sampled(sampling),
+                scene,
                 snr_db: condition.snr_db,
                 snapshots: 1,
                 fluctuation: Fluctuation::RandomPhase,
                 imperfections,
-                seed: self.seed,
+                seed,
                 ..SnapshotOptions::default()
             },
         )?;
         Ok(simulator.scene(stream)?)
+    }
+
+    fn sampling(&self, targets: usize) -> SceneSampling {
+        SceneSampling {
+            count: [targets; 2],
+            field_of_view_rad: TARGETS_WITHIN_RAD,
+            power_db: [-self.spread_db, 0.0],
+            ..SceneSampling::default()
+        }
+    }
+
+    /// Random targets, of which the second one is so many beams to one side of the first, within the sector.
+    fn pair_among(&self, targets: usize, beams: f64, random: &mut Random) -> Vec<Target> {
+        let half = TARGETS_WITHIN_RAD;
+        let mut all: Vec<Target> = (0..targets)
+            .map(|_| Target {
+                direction: Direction::azimuth(random.uniform(-half, half)).into(),
+                power_db: random.uniform(-self.spread_db, 0.0),
+                ..Target::default()
+            })
+            .collect();
+        if let [first, second, ..] = &mut all[..] {
+            let side = if random.uniform(-1.0, 1.0) < 0.0 { -1.0 } else { 1.0 };
+            let sine = first.direction.azimuth_rad.sin();
+            let apart = beams * self.beam * side;
+            let within = (sine + apart).abs() <= half.sin();
+            let beside = if within { sine + apart } else { sine - apart };
+            second.direction = Direction::azimuth(beside.asin()).into();
+        }
+        all
     }
 
     /// Standard deviation of each azimuth at the bound, deg; infinite where there is none.

@@ -29,13 +29,13 @@ const THRESHOLD_DB: f64 = 30.0;
 pub(crate) enum Finder {
     /// With the thresholding of IAA.
     Method(Method, Thresholding),
-    /// IAA on whole degrees, see [`PlainIaa`].
-    PlainIaa,
+    /// IAA on a grid of so many points a degree, see [`PlainIaa`].
+    PlainIaa(u8),
     Network(Network),
 }
 
-/// Name of [`Finder::PlainIaa`].
-const PLAIN_IAA: &str = "plain-iaa";
+/// Names of [`Finder::PlainIaa`], and grid points a degree.
+const PLAIN_IAA: [(&str, u8); 2] = [("plain-iaa", 1), ("plain-iaa-half-degree", 2)];
 
 impl Finder {
     pub(super) fn name(&self) -> String {
@@ -44,7 +44,11 @@ impl Finder {
             Self::Method(method, thresholding) => {
                 format!("{}+{}", method.name(), thresholding.name())
             }
-            Self::PlainIaa => PLAIN_IAA.into(),
+            Self::PlainIaa(wanted) => PLAIN_IAA
+                .into_iter()
+                .find(|(_, per_degree)| per_degree == wanted)
+                .map_or("plain-iaa", |(name, _)| name)
+                .into(),
             Self::Network(network) => network.name.clone(),
         }
     }
@@ -74,7 +78,7 @@ impl Finder {
     ) -> impl Iterator<Item = &'a Source> + use<'a> {
         let least = match self {
             Self::Network(network) => network.confidence(),
-            Self::Method(..) | Self::PlainIaa => 0.0,
+            Self::Method(..) | Self::PlainIaa(_) => 0.0,
         };
         sources.iter().filter(move |s| s.confidence.is_none_or(|of| of >= least))
     }
@@ -110,8 +114,8 @@ impl Finder {
                 };
                 network.model()?.estimator(array, &options)?
             }
-            Self::PlainIaa => {
-                let plan = Box::new(PlainIaa::new(array));
+            Self::PlainIaa(per_degree) => {
+                let plan = Box::new(PlainIaa::new(array, *per_degree));
                 Estimator::with_plan(Method::Iaa, array, plan, &options)?
             }
             Self::Method(method, thresholding) => {
@@ -152,12 +156,14 @@ impl Candidate {
     fn method(name: &str) -> Result<Self, EvaluateError> {
         let plain = name.strip_suffix(REFINED);
         let refined = plain.is_some();
-        let finder = match plain.unwrap_or(name).split_once('+') {
-            Some((of, how)) if of == Method::Iaa.name() => {
+        let name = plain.unwrap_or(name);
+        let plain_iaa = PLAIN_IAA.into_iter().find(|(known, _)| *known == name);
+        let finder = match (plain_iaa, name.split_once('+')) {
+            (Some((_, per_degree)), _) => Finder::PlainIaa(per_degree),
+            (_, Some((of, how))) if of == Method::Iaa.name() => {
                 Finder::Method(Method::Iaa, Thresholding::from_name("thresholding", how)?)
             }
-            _ if plain.unwrap_or(name) == PLAIN_IAA => Finder::PlainIaa,
-            _ => Finder::Method(Method::from_name(plain.unwrap_or(name))?, Thresholding::None),
+            _ => Finder::Method(Method::from_name(name)?, Thresholding::None),
         };
         Ok(Self { finder, refined })
     }

@@ -66,7 +66,7 @@ pub struct AoaExperiment {
     pub spread_db: f64,
     /// Errors of the array that no method knows of.
     pub imperfections: ImperfectionSpread,
-    /// Methods by name, `plain-iaa` for IAA on whole degrees, `iaa` with `+hard` or `+soft` for its thresholding, any with
+    /// Methods by name, `plain-iaa` for IAA on whole degrees, `plain-iaa-half-degree` on half ones, `iaa` with `+hard` or `+soft` for its thresholding, any with
     /// `+refined` for sources refined on the snapshot, and networks, which are run plain and refined. Methods that need
     /// the number of sources are given it.
     #[serde(flatten)]
@@ -99,13 +99,23 @@ impl Default for AoaExperiment {
     }
 }
 
-/// Number of targets and signal-to-noise ratio.
+/// How scenes are drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Condition {
     /// Targets.
     pub targets: usize,
     /// Signal-to-noise ratio, dB.
     pub snr_db: f64,
+    /// Distance of the second target from the first in sine, in halves of the main beam between its zeros. If `None`,
+    /// it is as random as the others.
+    pub pair_beams: Option<f64>,
+}
+
+impl Condition {
+    /// All targets at random.
+    pub const fn new(targets: usize, snr_db: f64) -> Self {
+        Self { targets, snr_db, pair_beams: None }
+    }
 }
 
 impl Experiment for AoaExperiment {
@@ -194,7 +204,7 @@ impl AoaExperiment {
     /// All conditions. A record's condition counts those of scored snapshots, then those of snapshots for the threshold.
     pub fn conditions(&self) -> Vec<Condition> {
         let of = |&targets: &usize| {
-            self.snrs_db.iter().map(move |&snr_db| Condition { targets, snr_db })
+            self.snrs_db.iter().map(move |&snr_db| Condition::new(targets, snr_db))
         };
         self.targets.iter().flat_map(of).collect()
     }

@@ -1,4 +1,4 @@
-//! IAA as a baseline is often implemented: on whole degrees, without interpolation between grid
+//! IAA as a baseline is often implemented: on a grid of whole or half degrees, without interpolation between grid
 //! points, without merging coincident elements and without loading (Yardibi et al. 2010).
 //!
 //! [`boresight_aoa`]'s IAA differs in all four. The difference between the two shows how much of a
@@ -15,8 +15,12 @@ use ndarray::{Array1, Array2};
 const ITERATIONS: usize = 15;
 /// Largest azimuth of the grid, deg.
 const LARGEST_DEG: i32 = 61;
-/// Grid points.
-pub(crate) const POINTS: usize = 2 * LARGEST_DEG as usize + 1;
+
+/// Number of grid points, for so many a degree.
+pub(crate) const fn points(per_degree: u8) -> usize {
+    2 * LARGEST_DEG as usize * per_degree as usize + 1
+}
+
 /// Diagonal that keeps the covariance invertible in double precision, relative to its mean diagonal.
 const FLOOR: f64 = 1e-12;
 
@@ -28,9 +32,11 @@ pub(super) struct PlainIaa {
 }
 
 impl PlainIaa {
-    pub fn new(array: &Array) -> Self {
-        let degrees = -LARGEST_DEG..=LARGEST_DEG;
-        let azimuth_rad: Vec<f64> = degrees.map(|deg| f64::from(deg).to_radians()).collect();
+    /// With so many grid points a degree.
+    pub fn new(array: &Array, per_degree: u8) -> Self {
+        let steps = LARGEST_DEG * i32::from(per_degree);
+        let azimuth = |step: i32| (f64::from(step) / f64::from(per_degree)).to_radians();
+        let azimuth_rad: Vec<f64> = (-steps..=steps).map(azimuth).collect();
         let directions: Vec<Direction> =
             azimuth_rad.iter().map(|azimuth| Direction::azimuth(*azimuth)).collect();
         Self { steering: steering_matrix(array, &directions), azimuth_rad }
@@ -105,14 +111,18 @@ mod tests {
             snapshot.iter_mut().zip(&response).for_each(|(y, a)| *y += a * amplitude);
         }
         let column = snapshot.insert_axis(ndarray::Axis(1));
-        let found = PlainIaa::new(&array).estimate(Data::Snapshots(column.view())).unwrap();
-        let strongest: Vec<(i32, i32)> = found.sources[..3]
-            .iter()
-            .map(|s| {
-                let deg = s.direction.azimuth_rad.to_degrees().round() as i32;
-                (deg, (10.0 * s.power.log10()).round() as i32)
-            })
-            .collect();
-        assert_eq!(strongest, [(-20, 0), (40, -5), (15, -10)]);
+        for per_degree in [1, 2] {
+            let mut plain = PlainIaa::new(&array, per_degree);
+            assert_eq!(plain.azimuth_rad.len(), points(per_degree));
+            let found = plain.estimate(Data::Snapshots(column.view())).unwrap();
+            let strongest: Vec<(i32, i32)> = found.sources[..3]
+                .iter()
+                .map(|s| {
+                    let deg = s.direction.azimuth_rad.to_degrees().round() as i32;
+                    (deg, (10.0 * s.power.log10()).round() as i32)
+                })
+                .collect();
+            assert_eq!(strongest, [(-20, 0), (40, -5), (15, -10)]);
+        }
     }
 }

@@ -145,6 +145,15 @@ impl AoaReport {
         ]
     }
 
+    /// In how many conditions the largest F1 of a method is more than that of `iaa`; a dash where that was not run.
+    fn ahead_of_iaa(&self, method: &str) -> String {
+        let at = |wanted: &str| self.methods.iter().position(|name| name == wanted);
+        let (Some(iaa), Some(method)) = (at("iaa"), at(method)) else { return "-".into() };
+        let f1 = |c: &ConditionResult, k: usize| c.methods[k].best.map_or(0.0, |best| best.f1);
+        let ahead = self.conditions.iter().filter(|c| f1(c, method) > f1(c, iaa)).count();
+        format!("{ahead} of {}", self.conditions.len())
+    }
+
     /// The table of it, with how far each method is behind the one of the largest mean.
     fn means_table(&self) -> Table {
         let means: Vec<[f64; 4]> = (0..self.methods.len()).map(|k| self.means(k)).collect();
@@ -155,7 +164,10 @@ impl AoaReport {
                 false => "-".into(),
             };
             let shares = [f1, most - f1, one, strict].map(|share| Cell::fixed(share, 4));
-            (name, [Cell::text(threshold)].into_iter().chain(shares).collect())
+            let ahead = self.ahead_of_iaa(name);
+            let cells =
+                [Cell::text(threshold)].into_iter().chain(shares).chain([Cell::text(ahead)]);
+            (name, cells.collect())
         });
         let title = "One threshold a method, dB, and the mean over all conditions of its F1";
         let heads = [
@@ -164,6 +176,7 @@ impl AoaReport {
             "behind",
             "F1 at the threshold",
             "strict F1 at the threshold",
+            "conditions ahead of iaa",
         ];
         let table = Table::new(title, Best::None, "method", heads, rows);
         Table { errors_in_cells: true, ..table }

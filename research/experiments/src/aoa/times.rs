@@ -9,7 +9,7 @@ const SNAPSHOTS: u64 = 128;
 /// How often.
 const ROUNDS: usize = 5;
 /// What is in them.
-const CONDITION: Condition = Condition { targets: 6, snr_db: 25.0 };
+const CONDITION: Condition = Condition::new(6, 25.0);
 
 /// Time of one of many snapshots, s, by what is compared: the median over some rounds on one thread, of snapshots of 6
 /// targets at 25 dB. Methods and networks are prepared before.

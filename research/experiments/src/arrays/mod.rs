@@ -202,7 +202,7 @@ impl Experiment for ArraysExperiment {
     fn scene(&self, plan: &Self::Plan, number: u64) -> Result<cell::AoaRecord, EvaluateError> {
         let (index, first, trials) = self.split().of(number);
         let (_, targets) = conditions()[index];
-        let condition = Condition { targets, snr_db: self.snr_db };
+        let condition = Condition::new(targets, self.snr_db);
         plan[index / 2].run(index, condition, [first, trials], None)
     }
 

@@ -153,7 +153,7 @@ impl Experiment for ImperfectionsExperiment {
     /// The condition of a record counts settings, then numbers of targets.
     fn scene(&self, plan: &Self::Plan, number: u64) -> Result<cell::AoaRecord, EvaluateError> {
         let (index, first, trials) = self.split().of(number);
-        let condition = Condition { targets: NUMBERS[index % NUMBERS.len()], snr_db: self.snr_db };
+        let condition = Condition::new(NUMBERS[index % NUMBERS.len()], self.snr_db);
         let there = aoa::AoaExperiment::default()
             .conditions()
             .iter()

@@ -31,6 +31,8 @@ pub enum ExperimentCommand {
     Calibration(CalibrationArguments),
     /// Counting and angles of up to two targets in the region of interest of a data cube.
     Doa(Box<DoaArguments>),
+    /// Angles under conditions harder than those of `aoa`: noise, many targets, close pairs, short arrays, array errors.
+    Hard(HardArguments),
     /// Bird's-eye images of simulated streets: how much of each is not target, by method.
     Images(ImagesArguments),
     /// Two sources far below the noise in many snapshots, by methods and networks on the covariance.
@@ -117,9 +119,9 @@ pub struct AoaArguments {
     /// Array, by name.
     #[arg(long, value_name = "NAME", default_value = "lrr48")]
     pub array: String,
-    /// Methods, separated by commas; plain-iaa for IAA on whole degrees without interpolation; NAME+refined for one
-    /// refined on the matched model; iaa+hard and iaa+soft for IAA with thresholding. Those that need the number of
-    /// targets are given it. Default: bartlett, capon, iaa, iaa+hard, iaa+soft, iaa+refined, nomp and, on uniform
+    /// Methods, separated by commas; plain-iaa for IAA on whole degrees without interpolation, plain-iaa-half-degree on
+    /// half degrees; NAME+refined for one refined on the matched model; iaa+hard and iaa+soft for IAA with
+    /// thresholding. Those that need the number of targets are given it. Default: bartlett, capon, iaa, iaa+hard, iaa+soft, iaa+refined, nomp and, on uniform
     /// arrays, single-snapshot-music.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub methods: Vec<String>,
@@ -191,6 +193,23 @@ pub enum DoaSetup {
     Simulation,
     /// Range bins of 43 mm, targets at 9.7 to 10.3 m.
     Experiment,
+}
+
+/// Arguments of `hard`.
+#[derive(Debug, Args)]
+pub struct HardArguments {
+    /// Shared arguments.
+    #[command(flatten)]
+    pub shared: SharedArguments,
+    /// Snapshots a condition.
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    pub trials: u64,
+    /// Methods, separated by commas, as for `aoa`; the first one is compared with all others.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub methods: Vec<String>,
+    /// Networks, each run plain and refined; one for a single array is run on that alone.
+    #[command(flatten)]
+    pub networks: NetworkArguments,
 }
 
 /// Arguments of `images`.

@@ -11,7 +11,7 @@ use boresight_cli::network;
 use boresight_cli::run::Run;
 use boresight_core::presets::preset;
 use boresight_experiments::{
-    Entrants, EvaluateError, Network, aoa, arrays, calibration, doa, images, imperfections,
+    Entrants, EvaluateError, Network, aoa, arrays, calibration, doa, hard, images, imperfections,
     low_snr, merge, near_field, resolution, straddling,
 };
 use boresight_neural::Kind;
@@ -73,6 +73,15 @@ pub fn run(what: &ExperimentCommand, files: &Files) -> Result<String, CliError> 
             };
             let options = doa::DoaExperiment { setup, axis, trials, seed, entrants, end_to_end };
             answered(&options, &arguments.shared.run, &arguments.answers, files)
+        }
+        ExperimentCommand::Hard(arguments) => {
+            let usual = || Ok(hard::default_methods());
+            let options = hard::HardExperiment {
+                trials: arguments.trials,
+                seed: arguments.shared.seed,
+                entrants: entrants(&arguments.methods, usual, &arguments.networks, files)?,
+            };
+            experiment::run(&options, &arguments.shared.run, files)
         }
         ExperimentCommand::Images(arguments) => {
             let networks = networks(&arguments.networks, files)?;
@@ -194,7 +203,7 @@ fn networks(arguments: &NetworkArguments, files: &Files) -> Result<Vec<Network>,
 
 /// Times of a snapshot, as a table.
 fn times(options: &aoa::AoaExperiment) -> Result<String, CliError> {
-    let mut text = "| method | us a snapshot |\n|---|---|\n".to_owned();
+    let mut text = "Time of a snapshot of 6 targets, us\n\n| method | time |\n|---|---|\n".to_owned();
     for (name, seconds) in aoa::times(options)? {
         text += &format!("| {name} | {:.0} |\n", 1e6 * seconds);
     }

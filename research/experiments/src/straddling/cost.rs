@@ -33,7 +33,9 @@ pub(super) fn operations(
             let count = |model: &boresight_neural::Model| model.operations(array);
             network.model.as_ref().map(count).transpose()?
         }
-        Finder::PlainIaa => of_method(Method::Iaa, Form::Dense, array, Some(plain_iaa::POINTS)),
+        Finder::PlainIaa(per_degree) => {
+            of_method(Method::Iaa, Form::Dense, array, Some(plain_iaa::points(*per_degree)))
+        }
         Finder::Method(method, _) => of_method(*method, form, array, grid),
     };
     let refined = if line.is_refined() { pursuit(form, array) } else { 0.0 };
