@@ -4,16 +4,19 @@
 //! kernels over three axes number by number.
 
 use crate::dense::{Dense, steps};
+use crate::line::Line;
 use crate::product::Run;
 use tract_onnx::prelude::*;
+use tract_onnx::tract_core::internal::TypedOp;
 use tract_onnx::tract_core::ops::array::{Pad, PadMode};
 use tract_onnx::tract_core::ops::cnn::{Conv, KernelFormat};
 use tract_onnx::tract_core::ops::math::add;
+use tract_onnx::tract_core::ops::nn::DataFormat;
 
 /// Replaces convolutions with constant kernels.
 pub(crate) fn unroll(model: &mut TypedModel) -> TractResult<()> {
     for node in model.eval_order()? {
-        let Some(Convolution { pads, dense, bias }) = convolution(model, node)? else { continue };
+        let Some(Convolution { pads, product, bias }) = convolution(model, node)? else { continue };
         let (name, input) = (model.node(node).name.clone(), model.node(node).inputs[0]);
         let mut patch = TypedModelPatch::default();
         let mut outlet = patch.tap_model(model, input)?;
@@ -21,7 +24,7 @@ pub(crate) fn unroll(model: &mut TypedModel) -> TractResult<()> {
             let pad = Pad { pads, mode: PadMode::Constant(Arc::new(0.0_f32.into())) };
             outlet = patch.wire_node(format!("{name}.pad"), pad, &[outlet])?[0];
         }
-        outlet = patch.wire_node(format!("{name}.dense"), dense, &[outlet])?[0];
+        outlet = patch.wire_node(format!("{name}.product"), product, &[outlet])?[0];
         if let Some(bias) = bias {
             let bias = patch.add_const(format!("{name}.bias"), bias)?;
             outlet = patch.wire_node(format!("{name}.biased"), add(), &[outlet, bias])?[0];
@@ -35,8 +38,8 @@ pub(crate) fn unroll(model: &mut TypedModel) -> TractResult<()> {
 struct Convolution {
     /// Zeros before and after each axis of the input.
     pads: Vec<(usize, usize)>,
-    dense: Dense,
-    /// In the shape that the output is added to.
+    product: Box<dyn TypedOp>,
+    /// In the shape that the output is added to; `None` if there is nothing to add.
     bias: Option<Tensor>,
 }
 
@@ -62,6 +65,9 @@ fn convolution(model: &TypedModel, node: usize) -> TractResult<Option<Convolutio
     for (&axis, pad) in space.iter().zip(spec.computed_padding(from.hw_dims())) {
         pads[axis] = (pad.pad_before, pad.pad_after);
         padded[axis] += pad.pad_before + pad.pad_after;
+    }
+    if let Some(line) = line(op, kernel, bias, &padded, output)? {
+        return Ok(Some(Convolution { pads, product: line.into(), bias: None }));
     }
     let (of_given, of_output, of_kernel) = (steps(&padded), steps(output), steps(kernel.shape()));
     let last = kernel.rank() - 1;
@@ -101,7 +107,27 @@ fn convolution(model: &TypedModel, node: usize) -> TractResult<Option<Convolutio
     let mut shape = vec![1; output.len()];
     shape[to.c_axis()] = bias.len();
     let bias = if zero { None } else { Some(bias.into_shape(&shape)?) };
-    Ok(Some(Convolution { pads, dense, bias }))
+    Ok(Some(Convolution { pads, product: dense.into(), bias }))
+}
+
+/// The convolution as one along a line, if it is one.
+fn line(
+    op: &Conv,
+    kernel: &Tensor,
+    bias: &Tensor,
+    padded: &[usize],
+    output: &[usize],
+) -> TractResult<Option<Line>> {
+    let spec = &op.pool_spec;
+    let (Ok(padded), Ok(output)) = (padded.try_into(), output.try_into()) else { return Ok(None) };
+    let plain = spec.data_format == DataFormat::NCHW && op.kernel_fmt == KernelFormat::OIHW;
+    if !plain || spec.stride(0) != 1 {
+        return Ok(None);
+    }
+    let (kernel, bias) = (kernel.cast_to::<f32>()?, bias.cast_to::<f32>()?);
+    let (kernel, bias) = (kernel.to_plain_array_view::<f32>()?, bias.to_plain_array_view::<f32>()?);
+    let (Some(kernel), Some(bias)) = (kernel.as_slice(), bias.as_slice()) else { return Ok(None) };
+    Ok(Line::new(kernel, bias, spec.dilation(0), padded, output))
 }
 
 #[cfg(test)]
@@ -130,7 +156,7 @@ mod tests {
         use KernelFormat::{HWIO, OHWI, OIHW};
         let explicit =
             |before: &[usize], after: &[usize]| PaddingSpec::Explicit(before.into(), after.into());
-        let cases: [Case; 5] = [
+        let cases: [Case; 7] = [
             (
                 &[2, 3, 9, 6, 4],
                 NCHW,
@@ -142,6 +168,8 @@ mod tests {
                 10,
             ),
             (&[3, 7, 11], NCHW, &[7, 7, 3], OIHW, explicit(&[1], &[1]), &[1], &[1], 7),
+            (&[2, 5, 29], NCHW, &[6, 5, 4], OIHW, PaddingSpec::Valid, &[3], &[1], 1),
+            (&[2, 5, 29], NCHW, &[6, 5, 4], OIHW, PaddingSpec::Valid, &[1], &[2], 6),
             (&[2, 9, 5, 3], NHWC, &[3, 2, 3, 9], HWIO, PaddingSpec::Valid, &[2, 1], &[1, 2], 9),
             (&[1, 8, 6, 4], NHWC, &[5, 3, 3, 4], OHWI, PaddingSpec::SameUpper, &[1; 2], &[2, 1], 1),
             (
@@ -179,7 +207,9 @@ mod tests {
             let op = Conv { pool_spec, kernel_fmt, group: 1, q_params: None };
             let out = model.wire_node("conv", op, &[source, kernel, bias]).expect("a convolution");
             model.select_output_outlets(&out).expect("an output");
-            same_after(model, &numbers(given), unroll, "Dense", 1);
+            let along_a_line = given.len() == 3 && strides == [1];
+            let name = if along_a_line { "Line" } else { "Dense" };
+            same_after(model, &numbers(given), unroll, name, 1);
         }
     }
 }

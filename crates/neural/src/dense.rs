@@ -1,5 +1,6 @@
 //! Products of two tensors, run by [`crate::product`].
 
+use crate::few_rows::{MOST_ROWS, Order, order};
 use crate::product::{Layout, Panels, Run, fill, listable, panels, places};
 use tract_onnx::prelude::*;
 use tract_onnx::tract_core::internal::*;
@@ -27,6 +28,8 @@ struct Product {
     layout: Layout,
     /// Where each product's rows, matrix and output begin.
     products: Vec<[usize; 3]>,
+    /// Order of the matrix, where rows are so few that it is read where it lies.
+    order: Option<Order>,
     shape: TVec<usize>,
 }
 
@@ -190,6 +193,14 @@ impl EvalOp for Product {
         let mut tensor = Tensor::zero::<f32>(&self.shape)?;
         let mut output = tensor.to_plain_array_view_mut::<f32>()?;
         let output = output.as_slice_mut().context("an output in C order")?;
+        let places = [&*self.inner, &*self.columns];
+        if let Some(order) = self.order {
+            for &[rows, own, to] in &self.products {
+                let (given, matrix) = (&given[rows..], &matrix[own..]);
+                self.layout.multiply_few(given, matrix, places, order, &mut output[to..]);
+            }
+            return Ok(tvec!(tensor.into()));
+        }
         let mut panels = panels(&self.inner, &self.columns);
         for &[rows, own, to] in &self.products {
             fill(&mut panels, &matrix[own..], &self.inner, &self.columns);
@@ -240,12 +251,16 @@ impl Product {
         if ![inner, columns, rows].into_iter().all(|axes| listable(axes)) || !listable(products) {
             return None;
         }
-        let (inner, columns) = (places(inner), places(columns));
+        let (inner, columns, rows) = (places(inner), places(columns), places(rows));
+        let few = rows.len() <= MOST_ROWS;
+        let layout = Layout::new(&inner, &columns, rows)?;
+        let (inner, columns) = (seconds(&inner), seconds(&columns));
         Some(Self {
             matrix_at,
-            layout: Layout::new(&inner, &columns, places(rows))?,
-            inner: seconds(&inner),
-            columns: seconds(&columns),
+            layout,
+            order: if few { order(&inner, &columns) } else { None },
+            inner,
+            columns,
             products: places(products),
             shape: shape.into(),
         })
@@ -267,8 +282,11 @@ pub(crate) mod tests {
 
     #[test]
     fn products_of_two_inputs_stay_the_same() {
-        let cases: [(&str, &[usize], &[usize]); 6] = [
+        let cases: [(&str, &[usize], &[usize]); 9] = [
             ("bmk,bkn->bmn", &[3, 1, 12], &[3, 12, 16]),
+            ("mk,kn->mn", &[1, 13], &[13, 19]),
+            ("mk,nk->mn", &[2, 21], &[11, 21]),
+            ("km,nk->nm", &[21, 3], &[11, 21]),
             ("bmk,kn->bmn", &[2, 6, 9], &[9, 5]),
             ("bhqc,bhkc->bhqk", &[2, 3, 5, 4], &[2, 3, 7, 4]),
             ("bqhc,bkhc->bhqk", &[2, 5, 3, 4], &[2, 7, 3, 4]),

@@ -4,6 +4,7 @@
 //! rows into panels before and out of them after. Here tiles are 4 x 8, rows are used as they are, and the matrix is put
 //! into panels of 8 columns, once if it is constant.
 
+use crate::few_rows::{self, Order};
 use wide::f32x4;
 
 /// Columns of a panel.
@@ -218,6 +219,26 @@ impl Layout {
         }
     }
 
+    /// The product of few rows with a matrix whose inner numbers and columns are at `places`.
+    pub fn multiply_few(
+        &self,
+        given: &[f32],
+        matrix: &[f32],
+        places: [&[usize]; 2],
+        order: Order,
+        output: &mut [f32],
+    ) {
+        let mut row = vec![0.0; self.inner.len()];
+        let mut numbers = vec![0.0; self.columns.len()];
+        for &[from, to] in &self.rows {
+            row.iter_mut().zip(&self.inner).for_each(|(own, &place)| *own = given[from + place]);
+            few_rows::product(&row, matrix, places, order, &mut numbers);
+            for (&column, &number) in self.columns.iter().zip(&numbers) {
+                output[to + column] = number;
+            }
+        }
+    }
+
     /// Puts a row's numbers of a panel into the output.
     #[inline(always)]
     fn put(&self, panel: usize, [_, to]: [usize; 2], numbers: &Columns, output: &mut [f32]) {
@@ -236,7 +257,8 @@ impl Layout {
     }
 }
 
-fn numbers_of([low, high]: [f32x4; 2]) -> [f32; COLUMNS] {
+/// The numbers of two vectors.
+pub(crate) fn numbers_of([low, high]: [f32x4; 2]) -> [f32; COLUMNS] {
     let ([a, b, c, d], [e, f, g, h]) = (low.to_array(), high.to_array());
     [a, b, c, d, e, f, g, h]
 }

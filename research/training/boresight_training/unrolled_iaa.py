@@ -57,23 +57,19 @@ class UnrolledIaa(nn.Module):
 
     def forward(self, values, positions):
         c = self.config
-        sine = torch.arange(c.points, device=values.device) * (2 / c.points) - 1
-        forward = (1 - sine * sine).clamp_min(0).sqrt()
-        phase = pi * (positions[..., 1:2] * sine + positions[..., :1] * forward)
-        waves = (phase.cos(), phase.sin())
+        waves = wave_matrix(positions, c.points)
         elements = values.shape[1]
         mean = values.square().sum((1, 2), keepdim=True).clamp_min(1e-30) / elements
-        y = (values * mean.rsqrt()).unbind(-1)
-        beams = adjoint(y, waves)
-        log_p = (square(beams) / elements**2 + 1e-6).log()
+        y = (values * mean.rsqrt()).transpose(1, 2).reshape(-1, 2 * elements)
+        log_p = (squared(y @ waves) / elements**2 + 1e-6).log()
         memory = functional.relu(self.start(log_p.unsqueeze(1)))
-        z = tuple(torch.zeros_like(part) for part in y)
+        z = torch.zeros_like(y)
         answers = []
         for _ in range(c.layers):
             log_noise = self.noise(memory.mean(-1)) - 3
             p, noise = log_p.clamp(-20, 8).exp(), log_noise.clamp(-12, 4).exp()
-            z, q = conjugate_gradients(z, y, waves, p, noise, c.gradients)
-            log_q = (square(q) + 1e-12).log()
+            z, q = conjugate_gradients(z, y, waves, p.repeat(1, 2), noise, c.gradients)
+            log_q = (squared(q) + 1e-12).log()
             features = torch.stack((log_p, log_p + 0.5 * log_q, log_noise.expand_as(log_p)), 1) / 5
             mixed = functional.relu(self.mix(torch.cat((memory, features), 1)))
             keep, new = self.remember(mixed).split(c.width, 1)
@@ -86,46 +82,49 @@ class UnrolledIaa(nn.Module):
         return torch.stack(answers) * (10 / LOG10) + (10 / LOG10) * mean.squeeze(-1).log()
 
 
-def square(x):
-    """Squared magnitude of complex numbers given as parts."""
-    return x[0] * x[0] + x[1] * x[1]
+def wave_matrix(positions, points):
+    """Matrix [2 * elements, 2 * points] whose product with a snapshot is the beams along the grid.
+
+    Snapshots and beams have their real parts first, then their imaginary parts: products of whole matrices take a third
+    of the operators that products of the parts do.
+    """
+    sine = torch.arange(points, device=positions.device) * (2 / points) - 1
+    forward = (1 - sine * sine).clamp_min(0).sqrt()
+    phase = pi * (positions[..., 1:2] * sine + positions[..., :1] * forward)
+    cos, sin = phase.cos(), phase.sin()
+    return torch.cat((torch.cat((cos, -sin), -1), torch.cat((sin, cos), -1)), -2)
 
 
-def adjoint(x, waves):
-    """What beams along the waves receive of snapshots, parts [batch, points]."""
-    (re, im), (cos, sin) = x, waves
-    return re @ cos + im @ sin, im @ cos - re @ sin
+def squared(x):
+    """Squared magnitudes of complex numbers, real parts first."""
+    re, im = x.chunk(2, -1)
+    return re * re + im * im
 
 
 def applied(x, waves, p, noise):
     """The covariance of powers `p` on the grid and noise, times `x`; and the beams of `x`."""
-    beams, (cos, sin) = adjoint(x, waves), waves
-    re, im = p * beams[0], p * beams[1]
-    return (
-        re @ cos.transpose(0, 1) - im @ sin.transpose(0, 1) + noise * x[0],
-        re @ sin.transpose(0, 1) + im @ cos.transpose(0, 1) + noise * x[1],
-    ), beams
+    beams = x @ waves
+    return (p * beams) @ waves.transpose(0, 1) + noise * x, beams
 
 
 def dot(x, y):
     """Real part of the scalar product, [batch, 1]."""
-    return (x[0] * y[0] + x[1] * y[1]).sum(-1, keepdim=True)
+    return (x * y).sum(-1, keepdim=True)
 
 
 def conjugate_gradients(z, y, waves, p, noise, steps):
     """Steps from `z` towards the inverse of the covariance times `y`; and the beams of where they end."""
-    (re, im), beams = applied(z, waves, p, noise)
-    r = (y[0] - re, y[1] - im)
+    turned, beams = applied(z, waves, p, noise)
+    r = y - turned
     along, size = r, dot(r, r)
     for _ in range(steps):
         turned, along_beams = applied(along, waves, p, noise)
         step = size / (dot(along, turned) + 1e-20)
-        z = (z[0] + step * along[0], z[1] + step * along[1])
-        beams = (beams[0] + step * along_beams[0], beams[1] + step * along_beams[1])
-        r = (r[0] - step * turned[0], r[1] - step * turned[1])
+        z = z + step * along
+        beams = beams + step * along_beams
+        r = r - step * turned
         left = dot(r, r)
-        turn = left / (size + 1e-20)
-        along, size = (r[0] + turn * along[0], r[1] + turn * along[1]), left
+        along, size = r + left / (size + 1e-20) * along, left
     return z, beams
 
 
