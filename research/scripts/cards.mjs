@@ -4,7 +4,6 @@ import { join } from 'node:path';
 import { root } from '../../scripts/lib/paths.mjs';
 import { withTables } from './tables.mjs';
 
-
 /** All cards, each with the path of its network. */
 export function cards() {
   const paths = ['models', 'research/models'].flatMap((folder) =>
@@ -22,20 +21,32 @@ const grouped = (number) => number.toLocaleString('en-US');
 function seen({ samplesSeen, data }) {
   const what = data.array === 'any' ? 'random arrays' : (data.array ?? data.waveform);
   const displaced = data.positionError > 0 ? `, displaced by ${data.positionError} half wavelengths` : '';
+  const close = data.closePairs ? `, close pairs in ${100 * data.closePairs} %` : '';
   const [low, high] = data.snrDb;
   const lower = data.secondStageLowestSnrDb ?? low;
   const later = lower < low ? `, second half ${lower} to ${high} dB` : '';
   const weaker = data.secondStageWeakerDb ? `, second target up to ${data.secondStageWeakerDb} dB weaker` : '';
-  return `${grouped(samplesSeen)} of ${what}${displaced}, ${low} to ${high} dB${later}${weaker}`;
+  return `${grouped(samplesSeen)} of ${what}${displaced}${close}, ${low} to ${high} dB${later}${weaker}`;
+}
+
+/** Hours of training, and of what. */
+function hoursOf(legs) {
+  const byHardware = new Map();
+  for (const { hours, hardware } of legs) {
+    const gpu = /NVIDIA (\S+)/.exec(hardware)?.[1];
+    const name = gpu ?? 'CPU thread';
+    byHardware.set(name, (byHardware.get(name) ?? 0) + hours);
+  }
+  return [...byHardware].map(([name, hours]) => `${hours.toFixed(hours < 1 ? 2 : 1)} ${name}`).join(', ');
 }
 
 /** A table, as a command prints it, of networks: parameters, training and its hours. */
 export function networkTable(networks) {
-  const rows = networks.map(({ name, title, parameters, legs, hours }) => {
+  const rows = networks.map(({ name, title, parameters, legs }) => {
     const runs = legs.map(seen).join('; then ');
-    return `| ${name} | ${title} | ${grouped(parameters)} | ${runs} | ${hours.toFixed(1)} |`;
+    return `| ${name} | ${title} | ${grouped(parameters)} | ${runs} | ${hoursOf(legs)} |`;
   });
-  const heads = '| network | form | parameters | training examples by run, in order | hours of a CPU thread |';
+  const heads = '| network | form | parameters | training examples by run, in order | hours |';
   return ['Networks, from their cards', '', heads, '|---|---|---|---|---|', ...rows].join('\n');
 }
 

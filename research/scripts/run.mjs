@@ -5,10 +5,10 @@
 import { cpSync, existsSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
-import { cardsOf, cards as shippedCards } from './cards.mjs';
-import { endToEndTables } from './end-to-end.mjs';
 import { root } from '../../scripts/lib/paths.mjs';
 import { main, run, runKeeping } from '../../scripts/lib/run.mjs';
+import { cardsOf, cards as shippedCards } from './cards.mjs';
+import { endToEndTables } from './end-to-end.mjs';
 import { withTables } from './tables.mjs';
 
 /** Networks that answer a snapshot of the array lrr48. */
@@ -220,8 +220,7 @@ await main(async () => {
     }
     if (FLOW.includes(name)) Object.assign(tables, flowTables(folderOf));
     writeFileSync(page, withTables(readFileSync(page, 'utf8'), tables));
-    if (shown)
-      cpSync(join(folder, `${experiment}.brief.json`), join(results, `${experiment}.json`));
+    if (shown) cpSync(join(folder, `${experiment}.brief.json`), join(results, `${experiment}.json`));
     if (figures === undefined) continue;
     for (const file of readdirSync(folder).filter((entry) => entry.endsWith('.svg')))
       cpSync(join(folder, file), join(results, 'figures', figures + file));

@@ -3,4 +3,6 @@
 import { pytest } from '../../scripts/lib/python/python.mjs';
 import { main } from '../../scripts/lib/run.mjs';
 
-await main(() => pytest('training', 'research/training/requirements.txt', 'research/training/tests', { OMP_NUM_THREADS: '1' }));
+await main(() =>
+  pytest('training', 'research/training/requirements.txt', 'research/training/tests', { OMP_NUM_THREADS: '1' }),
+);
