@@ -69,7 +69,7 @@ export function captureRegions(
  * await Promise.all([init(), initNeural()]);
  * const file = (end) => readFile(new URL(import.meta.resolve(`boresight/models/aaetr-any.${end}`)));
  * const network = new Network(await file('onnx'), { card: String(await file('json')), array: 'lrr48' });
- * const targets = [{ azimuthDeg: -5 }, { azimuthDeg: 12 }];
+ * const targets = [{ azimuthDeg: -5 }, { azimuthDeg: 12, powerDb: -6 }];
  * const { data, shape } = simulateSnapshots({ array: 'lrr48', targets, snrDb: 25, seed: 4 });
  * const { sources } = network.estimate({ snapshots: { data, shape: shape.slice(1) } });
  * network.free();
