@@ -68,7 +68,7 @@ class UnrolledIaa(nn.Module):
         for _ in range(c.layers):
             log_noise = self.noise(memory.mean(-1)) - 3
             p, noise = log_p.clamp(-20, 8).exp(), log_noise.clamp(-12, 4).exp()
-            z, q = conjugate_gradients(z, y, waves, p.repeat(1, 2), noise, c.gradients)
+            z, q = conjugate_gradients(z, y, waves, torch.cat((p, p), -1), noise, c.gradients)
             log_q = (squared(q) + 1e-12).log()
             features = torch.stack((log_p, log_p + 0.5 * log_q, log_noise.expand_as(log_p)), 1) / 5
             mixed = functional.relu(self.mix(torch.cat((memory, features), 1)))

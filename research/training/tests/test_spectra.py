@@ -10,7 +10,7 @@ from boresight_training.covariance_networks import CNN_CONFIGS, FLOOR, Covarianc
 from boresight_training.snapshots import Scenes, Targets, covariances, snapshots
 from boresight_training.spectra import grid, image, lobes, null_spectrum, peaks
 from boresight_training.tasks import task
-from boresight_training.unrolled_iaa import CONFIGS, UnrolledIaa, conjugate_gradients
+from boresight_training.unrolled_iaa import CONFIGS, UnrolledIaa, conjugate_gradients, wave_matrix
 
 
 def generator(seed=0):
@@ -30,13 +30,23 @@ def test_conjugate_gradients_end_at_the_inverse():
     y = torch.randn(3, 48, 2, generator=generator(1), dtype=torch.float64)
     matrix = (waves.mT * p.unsqueeze(1)) @ waves.conj() + noise.unsqueeze(-1) * torch.eye(48)
     expected = torch.linalg.solve(matrix, torch.view_as_complex(y).unsqueeze(-1)).squeeze(-1)
-    parts = (waves.real.mT, waves.imag.mT)
-    nothing = (torch.zeros(3, 48).double(), torch.zeros(3, 48).double())
-    # As many steps as elements are exact but for rounding; a second run goes on where the first ended.
-    z, _ = conjugate_gradients(nothing, y.unbind(-1), parts, p, noise, 30)
-    z, beams = conjugate_gradients(z, y.unbind(-1), parts, p, noise, 30)
-    torch.testing.assert_close(torch.complex(*z), expected, atol=1e-9, rtol=1e-7)
-    torch.testing.assert_close(torch.complex(*beams), expected @ waves.conj().mT, atol=1e-8, rtol=1e-7)
+    real, imaginary = waves.real.mT, waves.imag.mT
+    parts = torch.cat((torch.cat((real, -imaginary), 1), torch.cat((imaginary, real), 1)))
+    y, powers = y.mT.flatten(1), torch.cat((p, p), -1)
+    # As many steps as elements are exact up to rounding; a second run continues where the first ended.
+    z, _ = conjugate_gradients(torch.zeros_like(y), y, parts, powers, noise, 30)
+    z, beams = conjugate_gradients(z, y, parts, powers, noise, 30)
+    z, beams = (torch.complex(*x.chunk(2, -1)) for x in (z, beams))
+    torch.testing.assert_close(z, expected, atol=1e-9, rtol=1e-7)
+    torch.testing.assert_close(beams, expected @ waves.conj().mT, atol=1e-8, rtol=1e-7)
+
+
+def test_beams_of_the_wave_matrix_are_those_of_steering():
+    positions = array("lrr48").float()
+    waves = steering(positions.double(), grid(64))
+    y = torch.randn(3, 48, dtype=torch.complex128, generator=generator(1))
+    given = torch.cat((y.real, y.imag), -1) @ wave_matrix(positions, 64).double()
+    torch.testing.assert_close(torch.complex(*given.chunk(2, -1)), y @ waves.conj().mT, atol=1e-3, rtol=1e-4)
 
 
 def test_peaks_lie_between_the_points():
