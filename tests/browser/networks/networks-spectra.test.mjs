@@ -44,10 +44,10 @@ browserTest(
 );
 
 browserTest(
-  'networks: a learning curve stands beside the card',
-  { path: '#/networks?model=aaetr-lrr48' },
+  'networks: a learning curve is shown with the card',
+  { path: '#/networks?model=unrolled-iaa' },
   async ({ page }) => {
-    const { learning } = card('aaetr-lrr48');
+    const { learning } = card('unrolled-iaa');
     await page.waitForSelector('[data-plot="learning"] canvas');
     assert.equal(await page.locator('[data-plot="learning"] .legend li').count(), learning.length);
     assertCsv(await csvOf(page, 'learning'), 'run,samples,hours,f1');

@@ -203,7 +203,8 @@ fn networks(arguments: &NetworkArguments, files: &Files) -> Result<Vec<Network>,
 
 /// Times of a snapshot, as a table.
 fn times(options: &aoa::AoaExperiment) -> Result<String, CliError> {
-    let mut text = "Time of a snapshot of 6 targets, us\n\n| method | time |\n|---|---|\n".to_owned();
+    let mut text =
+        "Time of a snapshot of 6 targets, us\n\n| method | time |\n|---|---|\n".to_owned();
     for (name, seconds) in aoa::times(options)? {
         text += &format!("| {name} | {:.0} |\n", 1e6 * seconds);
     }
